@@ -11,152 +11,132 @@ python -m benchmarks.diagnosis --flight ID      one flight, shown
 from __future__ import annotations
 
 import argparse
-import csv
 import hashlib
 import json
 import multiprocessing
+import operator
 import subprocess
 import sys
-from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import nullcontext, suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-from benchmarks.diagnosis import ablation, array, ceiling, plan, records, score, table
-from benchmarks.diagnosis.fly import fly
-from benchmarks.diagnosis.plan import Spec
-from benchmarks.diagnosis.score import Row
+from pandas import DataFrame
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
+from benchmarks.diagnosis import ablation, plan, records, score
+from benchmarks.diagnosis.fly import fly, tested
+from benchmarks.diagnosis.plan import Spec
+from examples.mimu import elsewhere
+
+ROOT = Path(__file__).resolve().parents[2]
 CACHE = ROOT / "build" / "bench-diagnosis.jsonl"
-RESULTS = {n: HERE / f"{n}.csv" for n in ("reference", "ceiling", "ablation", "array")}
 
 SOURCES = ("generated", "derive", "ragg_runtime", "benchmarks/diagnosis")
 """What the result of a flight depends on."""
 
-
-def source_digest() -> str:
-    """Of the sources."""
-    digest = hashlib.sha256()
-    for path in sorted(p for folder in SOURCES for p in (ROOT / folder).rglob("*.py")):
-        digest.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
-    return digest.hexdigest()[:12]
-
-
-def commit() -> str:
-    """The commit that is checked out."""
-    words = ["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"]
-    return subprocess.run(words, capture_output=True, text=True, check=False).stdout.strip()
-
-
-class Cache:
-    """Results that are there: a line of JSON each, by their key; a line that was cut off by an interruption is left out."""
-
-    def __init__(self, path: Path, source: str) -> None:
-        self.path, self.source = path, source
-        self.lines: dict[str, dict[str, Any]] = {}
-        text = path.read_text("utf-8") if path.exists() else ""
-        if text and not text.endswith("\n"):
-            path.write_text(text + "\n", "utf-8")
-        for one in text.splitlines():
-            with suppress(json.JSONDecodeError):
-                x = json.loads(one)
-                if x["source"] == source:
-                    self.lines[x["key"]] = x
-
-    def add(self, key: str, x: dict[str, Any]) -> None:
-        x = {"key": key, "source": self.source} | x
-        self.lines[key] = x
-        self.path.parent.mkdir(parents=True, exist_ok=True)
-        with self.path.open("a", encoding="utf-8") as file:
-            file.write(json.dumps(x) + "\n")
-
-
 Task = Callable[[], dict[str, Any]]
 
 
-def run(tasks: dict[str, Task], cache: Cache, jobs: int) -> None:
-    """Do what is not done yet; an interruption loses only what is in the air."""
-    missing = {k: t for k, t in tasks.items() if k not in cache.lines}
-    at = {"commit": commit()}
-    spawn = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(jobs, spawn) if jobs > 1 else nullcontext() as pool:
-        flying = {} if pool is None else {pool.submit(t): k for k, t in missing.items()}
-        done = ((flying[future], future.result()) for future in as_completed(flying))
-        try:
-            for n, (key, result) in enumerate(done if flying else ((k, t()) for k, t in missing.items())):
-                cache.add(key, at | result)
-                print(f"\r{n + 1} of {len(missing)} of {len(tasks)}: {key}\033[K", end="", file=sys.stderr)
-        except BaseException:
-            if pool is not None:
-                pool.shutdown(cancel_futures=True)
-            raise
+class Cache:
+    """Results of these sources that are there: a line of JSON each, by their key."""
+
+    def __init__(self, path: Path) -> None:
+        digest = hashlib.sha256()
+        for file in sorted(p for folder in SOURCES for p in (ROOT / folder).rglob("*.py")):
+            digest.update(file.relative_to(ROOT).as_posix().encode() + b"\0" + file.read_bytes() + b"\0")
+        words = ["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"]
+        said = subprocess.run(words, capture_output=True, text=True, check=False).stdout
+        self.path, self.at = path, {"source": digest.hexdigest()[:12], "commit": said.strip()}
+        self.lines: dict[str, dict[str, Any]] = {}
+        for one in path.read_text("utf-8").splitlines() if path.exists() else ():
+            with suppress(json.JSONDecodeError):  # of a line that was cut off by an interruption
+                x = json.loads(one)
+                if x["source"] == self.at["source"]:
+                    self.lines[x["key"]] = x
+
+    def run(self, tasks: Mapping[str, Task], jobs: int) -> list[dict[str, Any]]:
+        """The results of tasks; what is not there is done, and an interruption loses only what is in the air."""
+        missing = {k: t for k, t in tasks.items() if k not in self.lines}
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        spawn = multiprocessing.get_context("spawn")
+        with (
+            self.path.open("a", encoding="utf-8") as file,
+            ProcessPoolExecutor(jobs, spawn) if jobs > 1 else nullcontext() as pool,
+        ):
+            results = (pool.map if pool else map)(operator.call, missing.values())
+            for n, (key, result) in enumerate(zip(missing, results, strict=True), 1):
+                self.lines[key] = {"key": key} | self.at | result
+                print("\n" + json.dumps(self.lines[key]), end="", file=file, flush=True)
+                print(f"\r{n} of {len(missing)} of {len(tasks)}: {key}\033[K", end="", file=sys.stderr)
+        return [self.lines[key] for key in tasks]
 
 
-def read_rows(path: Path) -> list[Row]:
-    with path.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+def fly_plan(o: argparse.Namespace, cache: Cache) -> DataFrame:
+    """All flights of the seeds, or those of some kinds."""
+    specs = [s for n in o.seed or plan.REFERENCE for s in plan.specs(n) if not o.only or s.kind in o.only]
+    return _fly(specs, score.flights, o, cache)
 
 
-def write_rows(rows: Iterable[Row], path: Path) -> None:
-    rows = list(rows)
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    print(f"written: {path}", file=sys.stderr)
+def fly_records(o: argparse.Namespace, cache: Cache) -> DataFrame:
+    """Flights of some kinds of record, with nothing hidden."""
+    seeds = o.seed or [plan.RECORDS]
+    specs = [Spec("quiet", r, k, n) for r in o.record for n in seeds for k in range(o.count)]
+    return _fly(specs, score.quiet_records, o, cache)
 
 
-def committed_page() -> str:
-    """The page of the site, from the results that are committed."""
-    return table.page({n: read_rows(p) for n, p in RESULTS.items()})
-
-
-def _run_mode(o: argparse.Namespace, cache: Cache) -> list[Row]:
-    """Carry out a mode, print its table."""
-    seeds = o.seed or plan.REFERENCE
-    if o.mode == "array":
-        tasks: dict[str, Task] = {f"{r}/{c}": partial(array.asked, p, c) for r, p, c in array.cases(o.real)}
-    elif o.mode == "ceiling":
-        weak = [s for n in seeds for s in plan.specs(n) if s.kind in ("five", "ten")]
-        tasks = {s.id: partial(ceiling.tested, s) for s in weak}
-    elif o.mode == "record":
-        own = o.seed or [plan.RECORDS]
-        specs = [Spec("quiet", r, k, n) for r in o.record for n in own for k in range(o.count)]
-        tasks = {s.id: partial(fly, s) for s in specs}
-    else:
-        specs = [s for n in seeds for s in plan.specs(n) if not o.only or s.kind in o.only]
-        tasks = {s.id: partial(fly, s) for s in specs}
-    run(tasks, cache, o.jobs)
-    found = [(key, cache.lines[key]) for key in tasks]
-    if o.mode == "array":
-        rows, show = [row for key, line in found for row in array.rows(key, line)], table.array
-    elif o.mode == "ceiling":
-        rows = [{n: str(v) for n, v in line.items() if n not in ("key", "source")} for _, line in found]
-        show = table.ceiling
-    else:
-        rows = [score.row(line) for _, line in found]
-        show = table.quiet_records if o.mode == "record" else table.flights
+def _fly(
+    specs: Sequence[Spec], show: Callable[[DataFrame], list[str]], o: argparse.Namespace, cache: Cache
+) -> DataFrame:
+    lines = cache.run({s.id: partial(fly, s) for s in specs}, o.jobs)
+    rows = DataFrame([score.row(x) for x in lines])
     print("\n" + "\n".join(show(rows)))
     if o.against is not None:
-        print("\n".join(table.against(rows, read_rows(o.against))))
+        print("\n".join(score.against(rows, score.read(o.against))))
     return rows
 
 
-def _ablate(o: argparse.Namespace, cache: Cache) -> list[Row]:
+def find_ceiling(o: argparse.Namespace, cache: Cache) -> DataFrame:
+    """What an oracle finds of weak effects."""
+    specs = [s for n in o.seed or plan.REFERENCE for s in plan.specs(n) if s.kind in ("five", "ten")]
+    lines = cache.run({f"ceiling/{s.id}": partial(tested, s) for s in specs}, o.jobs)
+    rows = DataFrame(lines).drop(columns=["key", "source"]).astype(str)
+    print("\n" + "\n".join(score.ceiling(rows)))
+    return rows
+
+
+def ask_array(o: argparse.Namespace, cache: Cache) -> DataFrame:
+    """The questions of ``examples.mimu.elsewhere``, asked of the record that is shipped, or of recordings in a folder."""
+    paths = sorted(o.real.glob("*.bin.gz")) if o.real else [None]
+    names = {p: p.name.removesuffix(".bin.gz") if p else "shipped" for p in paths}
+    tasks = {
+        f"{name}/{case}": partial(elsewhere.answer, path, case)
+        for path, name in names.items()
+        for case in (elsewhere.CASES if path else elsewhere.SHIPPED)
+    }
+    rows = []
+    for x in cache.run(tasks, o.jobs):
+        recording, _, case = x["key"].partition("/")
+        for a in x["answers"]:
+            found = {"recording": recording, "case": case} | a | {"commit": x["commit"]}
+            rows.append(found | {"holds": str(int(a["holds"])), "unfounded": "+".join(a["unfounded"])})
+    print("\n" + "\n".join(score.array(DataFrame(rows))))
+    return DataFrame(rows)
+
+
+def ablate(o: argparse.Namespace, cache: Cache) -> DataFrame:
+    """A row a rule, printed as soon as it is known."""
     rows = []
     for r in (r for r in ablation.RULES if not o.rule or r.id in o.rule):
-        flights = ablation.flights(r)
-        run({f"/{s.id}": partial(ablation.watched, s) for s in flights}, cache, o.jobs)
-        acting = [s for s in flights if ablation.acts(r, cache.lines[f"/{s.id}"])]
-        run({f"{r.id}/{s.id}": partial(ablation.without, r.id, s) for s in acting}, cache, o.jobs)
-        rows.append(ablation.row(r, flights, cache.lines))
-        print("\n" + "\n".join(table.ablation(rows[-1:])), flush=True)
-    print("\n".join(table.ablation(rows)))
-    return rows
+        specs = r.flights()[: o.count]
+        on = cache.run({f"/{s.id}": partial(fly, s) for s in specs}, o.jobs)
+        off = cache.run({f"{r.id}/{s.id}": partial(ablation.without, r.id, s) for s in specs}, o.jobs)
+        rows.append(ablation.row(r, on, off))
+        print("\n" + "\n".join(score.ablation(DataFrame(rows[-1:]))), flush=True)
+    print("\n".join(score.ablation(DataFrame(rows))))
+    return DataFrame(rows)
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -165,12 +145,12 @@ def main(arguments: Sequence[str]) -> int:
     ask("--seed", type=int, action="append", help="which flights (default: the reference's)")
     ask("--only", action="append", choices=list(plan.COUNTS), help="kinds of flights")
     ask("--flight", action="append", default=[], metavar="ID", help="show one flight")
-    mode = partial(ask, action="store_const", dest="mode")
-    mode("--array", const="array", help="ask the real array instead")
-    mode("--ceiling", const="ceiling", help="what an oracle that knows the noise finds of weak effects")
-    mode("--ablate", const="ablation", help="without one rule after the other")
+    mode = partial(ask, action="store_const", dest="mode", default=fly_plan)
+    mode("--array", const=ask_array, help="ask the real array instead")
+    mode("--ceiling", const=find_ceiling, help="what an oracle that knows the noise finds of weak effects")
+    mode("--ablate", const=ablate, help="without one rule after the other")
     ask("--record", action="append", choices=list(records.KINDS), help="one kind of record, nothing hidden")
-    ask("--count", type=int, default=40, help="flights of each of these")
+    ask("--count", type=int, default=40, help="flights of each of these, or of each rule")
     ask("--real", type=Path, metavar="FOLDER", help="its recordings, *.bin.gz (default: what is shipped)")
     ask("--rule", action="append", choices=[r.id for r in ablation.RULES], help="of the ablation")
     ask("--jobs", type=int, default=1, help="processes")
@@ -183,15 +163,14 @@ def main(arguments: Sequence[str]) -> int:
         print(json.dumps(fly(Spec(kind, record, int(index), int(sample))), indent=1))
     if o.flight:
         return 0
-    o.mode = o.mode or ("record" if o.record else "flights")
-    path = o.cache if o.mode in ("flights", "record") else o.cache.with_stem(f"{o.cache.stem}-{o.mode}")
     try:
-        rows = (_ablate if o.mode == "ablation" else _run_mode)(o, Cache(path, source_digest()))
+        rows = (fly_records if o.record else o.mode)(o, Cache(o.cache))
     except KeyboardInterrupt:
         print("interrupted: run it again to go on", file=sys.stderr)
         return 130
     if o.save is not None:
-        write_rows(rows, o.save)
+        rows.to_csv(o.save, index=False)
+        print(f"written: {o.save}", file=sys.stderr)
     return 0
 
 

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import tomlkit
 from numpy.typing import NDArray
 
 from benchmarks.diagnosis import records
-from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.instrument import DISC_UNITS, PARAMETERS, Instrument
 from ragg_runtime.instrument.layout import paper
 from ragg_runtime.io import read_flight
 from ragg_runtime.reference.gravity import Gradient
@@ -271,8 +272,19 @@ def _elsewhere(rng: np.random.Generator) -> tuple[Instrument, Instrument, Instru
     return of(values, stated), of(true, {}), of(true, stated), (1.0, 10.0, 1e4)[grade]
 
 
-def ablation(kinds: Sequence[tuple[str, str]], count: int) -> Iterator[Spec]:
-    """So many flights of the seed of the ablation, pairs of kind and record in turn."""
-    for n in range(count):
-        kind, record = kinds[n % len(kinds)]
-        yield Spec(kind, record, n // len(kinds), ABLATION)
+def model_text(instrument: Instrument) -> str:
+    """A model.toml in SI, which reads back to the same numbers; effects are left out."""
+    document: dict[str, Any] = {
+        "effects": [],
+        "model": {"kinematics": instrument.form.kinematics, "order": instrument.form.preset},
+        "disc": {n: f"{getattr(instrument, n)!r} {unit}" for n, unit in DISC_UNITS.items()},
+        "accelerometers": {},
+    }
+    if instrument.demodulation is not None:
+        document["demodulator"] = dict(instrument.demodulation.entries())
+    for p in PARAMETERS:
+        entry = {"value": instrument.accelerometers[p.name].tolist(), "unit": p.si_unit}
+        if p.name in instrument.sigmas:
+            entry["sigma"] = instrument.sigmas[p.name].tolist()
+        document["accelerometers"][p.name] = entry
+    return tomlkit.dumps(document)

@@ -28,26 +28,24 @@ QUARTERS = np.array([0.0, np.pi, np.pi / 2, 3 * np.pi / 2])
 class Loudness:
     """Of the noise: shape of its spectrum, and its level (4, N) or (N,) from sample to sample."""
 
-    psd: Callable[[Array], Array]
+    psd: Callable[[Array], Array] = np.ones_like
     """One-sided, of frequencies > 0 Hz, over that of the white noise."""
-    level: Array | float = 1.0
+    level: Any = 1.0
+
+
+@dataclass(frozen=True)
+class CleanOutput:
+    """What a change may need to know of a flight: the clean output (N,) V, the rms of its noise, the rate, Hz."""
+
+    clean: Array
+    rms: float
+    rate: float
 
 
 NoiseKind = Callable[[Table, np.random.Generator], Loudness]
-Change = Callable[[Table, "CleanOutput", np.random.Generator], Table]
+Change = Callable[[Table, CleanOutput, np.random.Generator], Table]
 
-
-def flat(f: Array) -> Array:
-    return np.ones_like(f)
-
-
-def _in_proportion(size: Array) -> Loudness:
-    """To the size of something, with a floor of a fifth."""
-    return Loudness(flat, 0.2 + size / np.sqrt(np.mean(size**2)))
-
-
-def white(x: Table, rng: np.random.Generator) -> Loudness:
-    return Loudness(flat)
+# --- noise -----------------------------------------------------------------------------------------------
 
 
 def red(x: Table, rng: np.random.Generator) -> Loudness:
@@ -64,60 +62,44 @@ def walk(x: Table, rng: np.random.Generator) -> Loudness:
     return Loudness(lambda f: 1.0 + c / f**2)
 
 
-def bump(x: Table, rng: np.random.Generator) -> Loudness:
-    """Five times the density over 0.1 Hz about twice the spin rate."""
-    return Loudness(lambda f: 1.0 + 4.0 * np.exp(-0.5 * ((f - 2 * SPIN) / 0.05) ** 2))
+def in_proportion(size: Callable[[Table], Array]) -> NoiseKind:
+    """To the size of something, with a floor of a fifth."""
+
+    def noise(x: Table, rng: np.random.Generator) -> Loudness:
+        s = size(x)
+        return Loudness(level=0.2 + s / np.sqrt(np.mean(s**2)))
+
+    return noise
 
 
-def along_axes(x: Table, rng: np.random.Generator) -> Loudness:
+@in_proportion
+def along_axes(x: Table) -> Array:
     """Each accelerometer's noise in proportion to the force along its input axis."""
     psi = 2 * np.pi * SPIN * x["time"][None] + QUARTERS[:, None]
-    return _in_proportion(np.abs(x["a_y"] * np.cos(psi) - x["a_x"] * np.sin(psi)))
+    return np.abs(x["a_y"] * np.cos(psi) - x["a_x"] * np.sin(psi))
 
 
-def with_size(x: Table, rng: np.random.Generator) -> Loudness:
-    """In proportion to |a|."""
-    return _in_proportion(np.sqrt(x["a_x"] ** 2 + x["a_y"] ** 2 + x["a_z"] ** 2))
-
-
-def with_ax(x: Table, rng: np.random.Generator) -> Loudness:
-    """In proportion to |a_x|."""
-    return _in_proportion(np.abs(x["a_x"]))
-
-
-def amplifier(x: Table, rng: np.random.Generator) -> Loudness:
-    """Of one of the two pairs in proportion to the force along its input axis; of the other one constant."""
-    level = np.asarray(along_axes(x, rng).level)
-    pair = int(rng.integers(2))
-    level[2 * pair : 2 * pair + 2] = 1.0
-    return Loudness(flat, level)
-
-
-def with_rates(x: Table, rng: np.random.Generator) -> Loudness:
-    """In proportion to |omega|."""
-    return _in_proportion(np.sqrt(x["omega_x"] ** 2 + x["omega_y"] ** 2 + x["omega_z"] ** 2))
-
-
-def size_and_temperature(x: Table, rng: np.random.Generator) -> Loudness:
-    """In proportion to |a|, and grows with temperature."""
-    return Loudness(flat, np.asarray(with_size(x, rng).level) * with_temperature(x, rng).level)
-
-
-def red_along_axes(x: Table, rng: np.random.Generator) -> Loudness:
-    """1/f, in proportion to the force along each input axis."""
-    return Loudness(red(x, rng).psd, along_axes(x, rng).level)
+with_size = in_proportion(lambda x: np.sqrt(x["a_x"] ** 2 + x["a_y"] ** 2 + x["a_z"] ** 2))
 
 
 def with_temperature(x: Table, rng: np.random.Generator) -> Loudness:
     """Three to six times larger at the warmest than at the coldest."""
     T = x["temperature"]
-    return Loudness(flat, 1.0 + rng.uniform(2.0, 5.0) * (T - T.min()) / np.ptp(T))
+    return Loudness(level=1.0 + rng.uniform(2.0, 5.0) * (T - T.min()) / np.ptp(T))
+
+
+def amplifier(x: Table, rng: np.random.Generator) -> Loudness:
+    """Of one of the two pairs in proportion to the force along its input axis; of the other one constant."""
+    level = along_axes(x, rng).level
+    pair = int(rng.integers(2))
+    level[2 * pair : 2 * pair + 2] = 1.0
+    return Loudness(level=level)
 
 
 def ramp(x: Table, rng: np.random.Generator) -> Loudness:
     """Grows or falls by a factor of 2 to 6."""
     s = np.linspace(0.0, 1.0, len(x["time"]))
-    return Loudness(flat, rng.uniform(2.0, 6.0) ** (s if rng.random() < 0.5 else 1.0 - s))
+    return Loudness(level=rng.uniform(2.0, 6.0) ** (s if rng.random() < 0.5 else 1.0 - s))
 
 
 def louder_part(x: Table, rng: np.random.Generator) -> Loudness:
@@ -125,7 +107,7 @@ def louder_part(x: Table, rng: np.random.Generator) -> Loudness:
     a = rng.uniform(0.0, 0.5)
     s = np.linspace(0.0, 1.0, len(x["time"]))
     loud = (s > a) & (s < a + rng.uniform(1 / 3, 2 / 3))
-    return Loudness(flat, np.where(loud, 10 ** rng.uniform(0.2, 1.0), 1.0))
+    return Loudness(level=np.where(loud, 10 ** rng.uniform(0.2, 1.0), 1.0))
 
 
 def bursts(x: Table, rng: np.random.Generator) -> Loudness:
@@ -135,93 +117,75 @@ def bursts(x: Table, rng: np.random.Generator) -> Loudness:
     for _ in range(int(rng.integers(1, 5))):
         a = rng.uniform(0.0, t[-1] - 8.0)
         factor[(t > a) & (t < a + rng.uniform(2.0, 8.0))] = rng.uniform(3.0, 20.0)
-    return Loudness(flat, factor)
+    return Loudness(level=factor)
 
 
 def cyclic(x: Table, rng: np.random.Generator) -> Loudness:
     """Swells once or twice a turn."""
     phi = 2 * np.pi * SPIN * x["time"] * int(rng.integers(1, 3)) + rng.uniform(0, 6)
-    return Loudness(flat, 1.0 + rng.uniform(0.3, 0.9) * np.cos(phi))
+    return Loudness(level=1.0 + rng.uniform(0.3, 0.9) * np.cos(phi))
 
 
-@dataclass(frozen=True)
-class CleanOutput:
-    """What a change may need to know of a flight: the clean output (N,) V, the rms of its noise, the rate, Hz."""
-
-    clean: Array
-    rms: float
-    rate: float
+# --- changes of the output -------------------------------------------------------------------------------
 
 
-def as_it_is(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
-    return x
+def output(change: Callable[[Array, CleanOutput, np.random.Generator], Array]) -> Change:
+    """What makes another one of the output."""
+    return lambda x, r, rng: x | {"G_out": change(x["G_out"], r, rng)}
 
 
-def heavy(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
-    """Noise of Student's t with three degrees of freedom."""
-    return x | {"G_out": r.clean + r.rms * rng.standard_t(3, len(r.clean)) / np.sqrt(3.0)}
-
-
-def heavy_as_loud(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
-    """Student's t with three degrees of freedom, at the noise's own level."""
-    heavy = np.sqrt(1.0 / rng.chisquare(3, len(r.clean)))
-    return x | {"G_out": r.clean + (x["G_out"] - r.clean) * heavy}
-
-
-def _added(x: Table, e: Array) -> Table:
-    return x | {"G_out": x["G_out"] + e}
-
-
-def mains(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
+@output
+def mains(G: Array, r: CleanOutput, rng: np.random.Generator) -> Array:
     """50 Hz, which wanders by some mHz, seen through the sampling, 0.3 to 3 times the noise."""
-    n = len(r.clean)
-    f = 50.0 + 0.005 * np.cumsum(rng.standard_normal(n)) / np.sqrt(n)
+    f = 50.0 + 0.005 * np.cumsum(rng.standard_normal(len(G))) / np.sqrt(len(G))
     phase = 2 * np.pi * np.cumsum(f) / r.rate + rng.uniform(0, 6)
-    return _added(x, np.sqrt(2.0) * rng.uniform(0.3, 3.0) * r.rms * np.cos(phase))
+    return G + np.sqrt(2.0) * rng.uniform(0.3, 3.0) * r.rms * np.cos(phase)
+
+
+def _tone(x: Table, frequency: float, size: float, rng: np.random.Generator) -> Table:
+    e = np.sqrt(2.0) * size * np.cos(2 * np.pi * frequency * x["time"] + rng.uniform(0, 6))
+    return x | {"G_out": x["G_out"] + e}
 
 
 def line(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """A line of 0.3 to 10 times the noise, far from the multiples of the spin rate."""
     f = float(rng.uniform(0.06, 0.45) * r.rate)
-    size = np.sqrt(2.0) * r.rms * 10 ** rng.uniform(-0.5, 1.0)
-    return _added(x, size * np.cos(2 * np.pi * f * x["time"] + rng.uniform(0, 6)))
+    return _tone(x, f, r.rms * 10 ** rng.uniform(-0.5, 1.0), rng)
 
 
 def near_line(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """A line 0.3 mHz beside one or two turns, 0.05 to 1 times the noise."""
     f = float(rng.choice([SPIN, 2 * SPIN])) + 0.0003
-    size = np.sqrt(2.0) * r.rms * 10 ** rng.uniform(-1.3, 0.0)
-    return _added(x, size * np.cos(2 * np.pi * f * x["time"] + rng.uniform(0, 6)))
+    return _tone(x, f, r.rms * 10 ** rng.uniform(-1.3, 0.0), rng)
 
 
-def jump(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
+@output
+def jump(G: Array, r: CleanOutput, rng: np.random.Generator) -> Array:
     """The output's zero jumps by 0.3 to 3 times the noise."""
-    n = len(r.clean)
     size = rng.choice([-1.0, 1.0]) * 10 ** rng.uniform(-0.5, 0.5) * r.rms
-    return _added(x, np.where(np.arange(n) > rng.uniform(0.2, 0.8) * n, size, 0.0))
+    return G + np.where(np.arange(len(G)) > rng.uniform(0.2, 0.8) * len(G), size, 0.0)
 
 
-def coarse(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
-    """Output in steps of 0.3 to 3 times the noise."""
-    q = rng.uniform(0.3, 3.0) * r.rms
-    return x | {"G_out": np.round(x["G_out"] / q) * q}
-
-
-def spikes(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
+@output
+def spikes(G: Array, r: CleanOutput, rng: np.random.Generator) -> Array:
     """Ten samples of the output 20 to 1,000 times the noise off."""
-    at = rng.choice(len(r.clean), 10, replace=False)
-    e = np.zeros(len(r.clean))
+    at = rng.choice(len(G), 10, replace=False)
+    e = np.zeros(len(G))
     e[at] = r.rms * rng.choice([-1.0, 1.0], 10) * 10 ** rng.uniform(1.3, 3.0, 10)
-    return _added(x, e)
+    return G + e
 
 
-def gaps(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
+@output
+def gaps(G: Array, r: CleanOutput, rng: np.random.Generator) -> Array:
     """30 % of the output's samples are missing, in gaps of 0.1 to 10 s."""
-    lost = np.zeros(len(r.clean), dtype=np.bool_)
+    lost = np.zeros(len(G), dtype=np.bool_)
     while np.mean(lost) < 0.3:
         a = int(rng.integers(len(lost)))
         lost[a : a + 1 + int(10 ** rng.uniform(-1, 1) * r.rate)] = True
-    return x | {"G_out": np.where(lost, np.nan, x["G_out"])}
+    return np.where(lost, np.nan, G)
+
+
+# --- changes of other columns ----------------------------------------------------------------------------
 
 
 def rough_gaps(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
@@ -264,20 +228,14 @@ def noisy_sensors(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     return x | {n: x[n] + s * rng.standard_normal(len(x[n])) for n, s in names}
 
 
+def in_steps(x: Array, step: float) -> Array:
+    return np.round(x / step) * step
+
+
 def sensors_in_steps(step: float) -> Change:
     """Motion sensors that resolve so much, m/s^2 (and 1e-5 rad/s)."""
-
-    def change(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
-        steps = {"a": step, "omega": 1e-5}
-        names = [(f"{q}_{k}", s) for q, s in steps.items() for k in "xyz"]
-        return x | {n: np.round(x[n] / s) * s for n, s in names}
-
-    return change
-
-
-def rounded_stamps(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
-    """Stamps to one or ten milliseconds."""
-    return x | {"time": np.round(x["time"], int(rng.integers(2, 4)))}
+    steps = {f"a_{k}": step for k in "xyz"} | {f"omega_{k}": 1e-5 for k in "xyz"}
+    return lambda x, r, rng: x | {n: in_steps(x[n], s) for n, s in steps.items()}
 
 
 def uneven_stamps(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
@@ -310,14 +268,7 @@ def without_omegadot(x: Table, r: CleanOutput, rng: np.random.Generator) -> Tabl
     return {c: v[kept] for c, v in x.items() if not c.startswith("omegadot")}
 
 
-def shuffled(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
-    """The output's samples in another order."""
-    return x | {"G_out": rng.permutation(x["G_out"])}
-
-
-def pure_noise(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
-    """White noise of the size of the output."""
-    return x | {"G_out": float(np.std(x["G_out"])) * rng.standard_normal(len(r.clean))}
+# --- the kinds -------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -342,8 +293,8 @@ class RecordKind:
         Whether it is flown only where it is asked for (``--record``): it was not there when the seeds were chosen.
     """
 
-    noise: NoiseKind = white
-    change: Change = as_it_is
+    noise: NoiseKind = lambda x, rng: Loudness()
+    change: Change = lambda x, r, rng: x
     known: bool = False
     tame: bool = False
     allowed: frozenset[str] = frozenset()
@@ -352,8 +303,12 @@ class RecordKind:
     by_name: bool = False
 
 
-def _tame(noise: NoiseKind = white, **world: Any) -> RecordKind:
+def _tame(noise: NoiseKind = RecordKind.noise, **world: Any) -> RecordKind:
     return RecordKind(noise, known=True, tame=True, world=world)
+
+
+def _asked(noise: NoiseKind, change: Change = RecordKind.change) -> RecordKind:
+    return RecordKind(noise, change, tame=True, by_name=True)
 
 
 _STEPS, _SPIN = frozenset({"quantisation"}), frozenset({"spin-rate-offset"})
@@ -362,16 +317,22 @@ KINDS: Mapping[str, RecordKind] = {
     "white": _tame(),
     "red": _tame(red),
     "walk": _tame(walk),
-    "bump": _tame(bump),
+    # five times the density over 0.1 Hz about twice the spin rate
+    "bump": _tame(lambda x, rng: Loudness(lambda f: 1.0 + 4.0 * np.exp(-0.5 * ((f - 2 * SPIN) / 0.05) ** 2))),
     "along-axes": _tame(along_axes),
     "with-size": _tame(with_size),
-    "with-ax": RecordKind(with_ax, tame=True),
+    "with-ax": RecordKind(in_proportion(lambda x: np.abs(x["a_x"])), tame=True),
     "with-temperature": _tame(with_temperature),
     "ramp": _tame(ramp),
     "louder-part": RecordKind(louder_part, tame=True),
     "bursts": RecordKind(bursts, known=True, tame=True),
     "cyclic": RecordKind(cyclic, tame=True),
-    "heavy-tails": RecordKind(change=heavy, known=True, tame=True),
+    # Student's t with three degrees of freedom
+    "heavy-tails": RecordKind(
+        change=output(lambda G, r, rng: r.clean + r.rms * rng.standard_t(3, len(G)) / np.sqrt(3.0)),
+        known=True,
+        tame=True,
+    ),
     "unknown-gradient": _tame(red, gradient=False),
     "recorded-motion": _tame(recorded=True),
     "elsewhere": _tame(elsewhere=True),
@@ -391,10 +352,15 @@ KINDS: Mapping[str, RecordKind] = {
     "near-line": RecordKind(change=near_line),
     "jump": RecordKind(change=jump, allowed=frozenset({"bias-step"})),
     "spikes": RecordKind(change=spikes),
-    "coarse": RecordKind(change=coarse, allowed=_STEPS),
+    "coarse": RecordKind(
+        change=output(lambda G, r, rng: in_steps(G, rng.uniform(0.3, 3.0) * r.rms)), allowed=_STEPS
+    ),
     "codes": RecordKind(change=codes),
     "stuck": RecordKind(change=stuck),
-    "rounded-stamps": RecordKind(change=rounded_stamps),
+    # to one or ten milliseconds
+    "rounded-stamps": RecordKind(
+        change=lambda x, r, rng: x | {"time": np.round(x["time"], int(rng.integers(2, 4)))}
+    ),
     "uneven-stamps": RecordKind(change=uneven_stamps),
     "clock-set": RecordKind(change=clock_set),
     "from-2-s": RecordKind(world={"start": 2.0}),
@@ -405,13 +371,23 @@ KINDS: Mapping[str, RecordKind] = {
     "no-omegadot": RecordKind(change=without_omegadot),
     "digits": RecordKind(change=digits, allowed=_STEPS),
     "noiseless": RecordKind(change=digits, allowed=_STEPS, world={"density": 0.0}),
-    "shuffled": RecordKind(change=shuffled, nothing=True),
-    "pure-noise": RecordKind(change=pure_noise, nothing=True),
-    "amplifier": RecordKind(amplifier, tame=True, by_name=True),
-    "with-rates": RecordKind(with_rates, tame=True, by_name=True),
-    "size-and-temperature": RecordKind(size_and_temperature, tame=True, by_name=True),
-    "red-along-axes": RecordKind(red_along_axes, tame=True, by_name=True),
-    "heavy-with-size": RecordKind(with_size, heavy_as_loud, tame=True, by_name=True),
+    "shuffled": RecordKind(change=output(lambda G, r, rng: rng.permutation(G)), nothing=True),
+    "pure-noise": RecordKind(
+        change=output(lambda G, r, rng: float(np.std(G)) * rng.standard_normal(len(G))), nothing=True
+    ),
+    "amplifier": _asked(amplifier),
+    "with-rates": _asked(
+        in_proportion(lambda x: np.sqrt(x["omega_x"] ** 2 + x["omega_y"] ** 2 + x["omega_z"] ** 2))
+    ),
+    "size-and-temperature": _asked(
+        lambda x, rng: Loudness(level=with_size(x, rng).level * with_temperature(x, rng).level)
+    ),
+    "red-along-axes": _asked(lambda x, rng: Loudness(red(x, rng).psd, along_axes(x, rng).level)),
+    # Student's t at the noise's own level
+    "heavy-with-size": _asked(
+        with_size,
+        output(lambda G, r, rng: r.clean + (G - r.clean) * np.sqrt(1.0 / rng.chisquare(3, len(G)))),
+    ),
 }
 """Every kind of record, by name."""
 

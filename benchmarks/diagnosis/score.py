@@ -1,4 +1,4 @@
-"""Scoring: what counts as right, wrong or silent for each kind of flight.
+"""Scoring: what counts as right, wrong or silent for each kind of flight; and the tables of the page.
 
 - A *wrong* claim is one of an effect that is not hidden, and in no group with one that is; or of more effects than are hidden. It is
   wrong under any verdict (``missing-effect`` or ``partly-explained``), whatever else is right.
@@ -15,21 +15,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
+from pandas import DataFrame
 from scipy import stats
 
-from benchmarks.diagnosis import records
-from benchmarks.diagnosis.outside import SINCE
+from benchmarks.diagnosis import plan, records
+from benchmarks.diagnosis.fly import SINCE
 
 Line = Mapping[str, Any]
 """The JSON object of one flight (``fly``), with its ``id``, ``kind`` and ``record``."""
-
-OUTCOMES = ("right", "part", "said", "silent", "unexplained", "wrong", "crash")
 
 WORTH = {
     "right": 1.0,
@@ -42,32 +43,7 @@ WORTH = {
 }
 """What an outcome counts in a mean change; *said* is all that a spoiled record can be asked for, but no verdict."""
 
-
-@dataclass(frozen=True)
-class Share:
-    """``hits`` of ``total``, with Wilson's 90 % interval."""
-
-    hits: int
-    total: int
-
-    @property
-    def value(self) -> float:
-        return self.hits / self.total if self.total else float("nan")
-
-    def interval(self, confidence: float = 0.9) -> tuple[float, float]:
-        found = stats.binomtest(self.hits, self.total).proportion_ci(confidence, "wilson")
-        return float(found.low), float(found.high)
-
-    def __str__(self) -> str:
-        if not self.total:
-            return "-"
-        low, high = self.interval()
-        return f"{self.hits} of {self.total} ({100 * self.value:.0f} %, {100 * low:.0f}-{100 * high:.0f})"
-
-
-def share(lines: Iterable[Line], test: Callable[[Line], bool]) -> Share:
-    passed = [test(x) for x in lines]
-    return Share(sum(passed), len(passed))
+OUTCOMES = tuple(WORTH)
 
 
 def truths(x: Line) -> list[str]:
@@ -98,9 +74,7 @@ def outcome(x: Line) -> str:
     if any(not g & (truth | allowed) for g in claims) or len(claims) > max(len(truth), len(allowed)):
         return "wrong"
     if not truth:
-        if silent or claims:
-            return "right"
-        return "said" if x["reason"] else "unexplained"
+        return "right" if silent or claims else "said" if x["reason"] else "unexplained"
     named = truth & set().union(*claims)
     if not named:
         return "silent" if silent else "unexplained"
@@ -112,29 +86,21 @@ def alarm(x: Line) -> bool:
     return "crash" in x or (x["verdict"] != "adequate" and not (outcome(x) == "right" and x["found"]))
 
 
-def least_p(x: Line) -> tuple[float, float, float]:
+def least_p(x: Line) -> dict[str, str]:
     """Family-wise p-values of an effect-free flight: of the effects, of the generic terms, and of both together."""
     best = min((-np.inf if r["log10_p"] is None else r["log10_p"] for r in x["ranking"]), default=0.0)
     effects = min(1.0, x["tested"] * 10.0**best)
     terms = min(1.0, 10.0 ** x["terms_log10_p"])
-    return effects, terms, min(1.0, 2.0 * min(effects, terms))
+    both = min(1.0, 2.0 * min(effects, terms))
+    return {"p_effects": f"{effects:.3g}", "p_terms": f"{terms:.3g}", "p": f"{both:.3g}"}
 
-
-def mean_change(outcomes: Sequence[tuple[str, str]]) -> str:
-    """What pairs of outcomes, before and after, are worth: mean change, and its 90 % interval."""
-    change = [WORTH[b] - WORTH[a] for a, b in outcomes]
-    return f"{np.mean(change):+.3f} ± {1.6449 * float(np.std(change)) / np.sqrt(len(change)):.3f}"
-
-
-Row = dict[str, str]
-"""What is kept of a flight in a file of results, as text."""
 
 COLUMNS = ("id", "kind", "record", "outcome", "verdict", "hidden", "found", "alarm")
 COLUMNS += ("p_effects", "p_terms", "p", "probability", "credible", "cpu", "commit")
 
 
-def row(x: Line) -> Row:
-    """A flight in short."""
+def row(x: Line) -> dict[str, str]:
+    """What is kept of a flight in a file of results, as text."""
     found: dict[str, object] = {n: x.get(n, "") for n in ("id", "kind", "record", "verdict", "cpu", "commit")}
     found |= {"outcome": outcome(x), "hidden": "+".join(truths(x)) if "hidden" in x else ""}
     if x.get("outside"):
@@ -142,8 +108,7 @@ def row(x: Line) -> Row:
     found["found"] = "+".join(x.get("found", ()))
     if x["kind"] == "quiet":
         found["alarm"] = int(alarm(x))
-        if "terms_log10_p" in x:
-            found |= dict(zip(("p_effects", "p_terms", "p"), (f"{p:.3g}" for p in least_p(x)), strict=True))
+        found |= least_p(x) if "terms_log10_p" in x else {}
     elif "probability" in x and x.get("hidden"):
         truth = set(truths(x))
         found["probability"] = ";".join(f"{p:g}{'*' * (e in truth)}" for e, p in x["probability"].items())
@@ -151,12 +116,207 @@ def row(x: Line) -> Row:
     return {n: str(found.get(n, "")) for n in COLUMNS}
 
 
-def reliability(rows: Iterable[Row], edges: Sequence[float]) -> list[tuple[float, Share]]:
+def share(passed: Iterable[bool]) -> str:
+    """How many of how many, with Wilson's 90 % interval."""
+    hits, total = np.sum(passed := [*passed], dtype=int), len(passed)
+    if not total:
+        return "-"
+    low, high = stats.binomtest(hits, total).proportion_ci(0.9, "wilson")
+    return f"{hits} of {total} ({100 * hits / total:.0f} %, {100 * low:.0f}-{100 * high:.0f})"
+
+
+def mean_change(before: Iterable[str], after: Iterable[str]) -> str:
+    """What outcomes after are worth more than those before: mean, and its 90 % interval."""
+    change = [WORTH[b] - WORTH[a] for a, b in zip(before, after, strict=True)]
+    return f"{np.mean(change):+.3f} ± {1.6449 * float(np.std(change)) / np.sqrt(len(change)):.3f}"
+
+
+# --- tables ----------------------------------------------------------------------------------------------
+
+LEVELS = (0.01, 0.05, 0.2)
+EDGES = (0.001, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1.0001)
+
+
+def table(heads: Iterable[str], rows: Iterable[Iterable[object]]) -> list[str]:
+    """Lines of Markdown."""
+    lines = [[*heads], *([str(x) for x in r] for r in rows)]
+    lines.insert(1, ["---"] * len(lines[0]))
+    return [f"| {' | '.join(line)} |" for line in lines]
+
+
+def flights(rows: DataFrame) -> list[str]:
+    """Everything about flights."""
+    of = {k: rows[rows.kind == k] for k in plan.COUNTS}
+    hidden = rows[~rows.kind.isin(["quiet", "outside"])]
+    tame = of["quiet"][of["quiet"].record.isin([n for n, k in records.KINDS.items() if k.tame])]
+    claims = {"nothing hidden": of["quiet"], "outside the catalogue": of["outside"]}
+    claims["something hidden"] = hidden[hidden.hidden != ""]
+    tests = {"p_effects": "effects", "p_terms": "generic terms", "p": "both"}
+    counts = [
+        (k, plan.WHAT[k], *(sum(own.outcome == o) or "" for o in OUTCOMES), share(own.outcome == "right"))
+        for k, own in of.items()
+        if len(own)
+    ]
+    p_values = [
+        (what, *(share(tame[n][tame[n] != ""].astype(float) < a) for a in LEVELS))
+        for n, what in tests.items()
+    ]
+    return [
+        *("", "### Outcomes", ""),
+        *table(("kind", "what", *OUTCOMES, "right, 90 % interval"), counts),
+        *("", "### Wrong claims, and sets that hold the truth", ""),
+        *table(
+            ("flights", "a claim is wrong"), [(n, share(x.outcome == "wrong")) for n, x in claims.items()]
+        ),
+        "",
+        f"The credible set holds what is hidden: {share(hidden.credible[hidden.credible != ''] == '1')}.",
+        *("", "### Probabilities", ""),
+        *table(("stated", "mean", "hidden"), _reliability(hidden)),
+        *("", "### False alarms", ""),
+        f"On tame records, for which 5 % are promised: {share(tame.alarm == '1')}. Least family-wise p-values:",
+        "",
+        *table(("of", *(f"below {a:g}" for a in LEVELS)), p_values),
+        *("", "### By kind of record", "", *_by_record(rows), "", "### What went wrong", "", *_wrong(rows)),
+    ]
+
+
+def _reliability(rows: DataFrame) -> Iterable[Sequence[str]]:
     """Of all effects of all flights with something hidden, by their stated probability: its mean, and how many are hidden."""
-    said = [(float(t.rstrip("*")), t.endswith("*")) for r in rows for t in r["probability"].split(";") if t]
-    found = []
-    for low, high in pairwise(edges):
-        own = [(p, t) for p, t in said if low <= p < high]
-        mean = float(np.mean([p for p, _ in own])) if own else float("nan")
-        found.append((mean, Share(sum(t for _, t in own), len(own))))
-    return found
+    said = [t for r in rows.probability for t in r.split(";") if t]
+    x = DataFrame({"p": [float(t.rstrip("*")) for t in said], "hidden": [t.endswith("*") for t in said]})
+    for low, high in pairwise(EDGES):
+        own = x[(x.p >= low) & (x.p < high)]
+        yield f"{low:g} to {min(high, 1.0):g}", f"{own.p.mean():.3f}", share(own.hidden)
+
+
+def _by_record(rows: DataFrame) -> list[str]:
+    groups = {"nothing hidden": ["quiet"], "one or two effects": ["five", "ten", "strong", "pair"]}
+    groups["outside"] = ["outside"]
+    lines = []
+    for name in (n for n in records.KINDS if n in set(rows.record)):
+        counts = [Counter(rows.outcome[(rows.record == name) & rows.kind.isin(k)]) for k in groups.values()]
+        lines.append((name, *(", ".join(f"{c[o]} {o}" for o in OUTCOMES if c[o]) for c in counts)))
+    return table(("record", *groups), lines)
+
+
+def _wrong(rows: DataFrame) -> list[str]:
+    bad = rows[~rows.outcome.isin(["right", "said"])].sort_values("id")
+    worst_first = [r for o in OUTCOMES[::-1] for r in bad[bad.outcome == o].itertuples()]
+    lines = [(r.id, r.hidden, f"{r.verdict} {r.found}".strip(), r.outcome) for r in worst_first]
+    return table(("flight", "hidden", "diagnosed", "outcome"), lines)
+
+
+def against(rows: DataFrame, before: DataFrame) -> list[str]:
+    """What has changed, flight by flight, since other results."""
+    both = rows.merge(before, on="id", suffixes=("", "_before"))
+    lines = []
+    for k in plan.COUNTS:
+        own = both[both.kind == k]
+        if len(own):
+            pairs = zip(own.outcome_before, own.outcome, strict=True)
+            moved = Counter(f"{a} to {b}" for a, b in pairs if a != b).most_common()
+            change = mean_change(own.outcome_before, own.outcome)
+            lines.append((k, len(own), change, ", ".join(f"{n} {m}" for m, n in moved)))
+    cpu = [pd.to_numeric(both[n]).sum() for n in ("cpu_before", "cpu")]
+    return [
+        *("", "### Against other results, flight by flight", ""),
+        *table(("kind", "flights", "mean change", "outcomes that changed"), lines),
+        *("", f"Processor time of the diagnoses: {cpu[0]:.0f} s, now {cpu[1]:.0f} s."),
+    ]
+
+
+def ablation(rows: DataFrame) -> list[str]:
+    """A row a rule."""
+    heads = {"sentence": "what it does", "kinds": "written for", "acts": "acts on", "change": "mean change"}
+    shown = rows.drop(columns=["moved", "commit"]).rename(columns=heads)
+    details = [f"- `{r.rule}`: {r.moved}" for r in rows.itertuples() if r.moved]
+    return [*table(shown, shown.to_numpy()), "", *details]
+
+
+def quiet_records(rows: DataFrame) -> list[str]:
+    """A line for each kind of record without effects: how many are accused of one, and how many are unexplained."""
+    lines = []
+    for name, own in rows.groupby("record", sort=False):
+        accused = own.outcome == "wrong"
+        told = ", ".join(f"{e} {n}" for e, n in Counter(own.found[accused]).most_common())
+        lines.append((name, share(accused), told, sum((own.alarm == "1") & ~accused)))
+    return table(("nothing hidden, noise", "accused", "of", "unexplained"), lines)
+
+
+def ceiling(rows: DataFrame) -> list[str]:
+    """How many of each strength an oracle finds."""
+    heads = ("kind", "the right effect alone, 5 %", "the right effect, as one of the catalogue, 3 %")
+    of = rows.groupby("kind", sort=False)
+    return table(heads, [(k, share(own.alone == "1"), share(own.found == "1")) for k, own in of])
+
+
+def array(rows: DataFrame) -> list[str]:
+    """How many questions hold, of each recording, and claims without evidence."""
+    asked = [*rows.question.unique()]
+    lines = []
+    for name, own in rows.groupby("recording", sort=False):
+        holds = [own.holds[own.question == q] == "1" for q in asked] + [own.holds == "1"]
+        unfounded = [e for u in own.unfounded for e in u.split("+") if e]
+        lines.append((name, *(f"{sum(x)} of {len(x)}" for x in holds), len(unfounded)))
+    return table(("recording", *asked, "all", "claims without evidence"), lines)
+
+
+HEAD = """\
+# Benchmark of the diagnosis
+
+Flights come from the independent simulator; sheet and flight are written to files and diagnosed as a user would. Strengths are
+those for an observer who knows the noise (`oracle.py`); right, wrong and silent are defined in `score.py`. A seed has
+{flights} flights of {kinds} kinds of record (`records.py`). Seeds of the reference: {seeds}; held back for a final check: {held}. Cases,
+seeds and scoring were committed before anything was flown. Intervals are Wilson's at 90 %.
+The tables are made from `benchmarks/diagnosis/*.csv`.
+
+    python -m benchmarks.diagnosis --jobs 2 --against benchmarks/diagnosis/reference.csv
+    python -m benchmarks.diagnosis --array --real FOLDER
+    python -m benchmarks.diagnosis --ceiling
+    python -m benchmarks.diagnosis --ablate --jobs 2
+"""
+
+SECTIONS = (
+    ("reference", "Reference", flights, ""),
+    (
+        "ceiling",
+        "What an oracle finds",
+        ceiling,
+        """
+An oracle that knows the noise and the true instrument tests the effect that is hidden, by the test of the diagnosis (`oracle.py`).
+""",
+    ),
+    (
+        "array",
+        "Questions asked of real sensors",
+        array,
+        "\n`python -m examples.mimu.elsewhere RAW.bin.gz` prints the questions and answers.\n",
+    ),
+    (
+        "ablation",
+        "Rules, each switched off",
+        ablation,
+        """
+40 flights a rule (seed of its own): half of the kinds that it was written for, half of others. *Acts*: flights whose diagnosis differs
+without it (before 08f668d6: in which it did anything). *Worse* and *better*: outcomes without the rule; *other*: changes of equal score.
+Mean change: right 1, part and said 1/2, silent and unexplained 0, wrong -1.
+""",
+    ),
+)
+"""File of results, title, table and what to know about it."""
+
+
+def page() -> str:
+    """The page, from the results that are committed."""
+    seeds, held = (", ".join(map(str, x)) for x in (plan.REFERENCE, plan.HELD))
+    count = sum(plan.COUNTS.values())
+    text = [HEAD.format(flights=count, kinds=len(records.FIRST), seeds=seeds, held=held)]
+    for name, title, made, words in SECTIONS:
+        rows = read(Path(__file__).parent / f"{name}.csv")
+        text += [f"## {title}: commit {', '.join(sorted(rows.commit.unique()))}", words, *made(rows), ""]
+    return "\n".join(text)
+
+
+def read(path: Path) -> DataFrame:
+    """Results in short; all values are text."""
+    return pd.read_csv(path, dtype=str, keep_default_na=False)

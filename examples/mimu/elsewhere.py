@@ -1,9 +1,10 @@
-"""Whether what the page says holds elsewhere: other parts of a recording, other quadruples of the board, worse data.
+"""What the page on real measurements (docs/explanation/real-measurements.md) computes, and whether it holds elsewhere.
 
     python -m examples.mimu.elsewhere [RAW.bin.gz [NAME ...]]
 
-Each case is a gradiometer made of the raw packets of a recording (without one, of what is shipped), and asked the questions of the
-page. Prints a line for every question, and how many hold. An answer holds if
+Elsewhere: on other parts of a recording, other quadruples of the board, worse data. Each case is a gradiometer made of the raw packets of
+a recording (without one, of what is shipped), and asked the questions of the page. Prints a line for every question, and how many hold. An
+answer holds if
 
 - what is left out is claimed, under whatever verdict, and its values agree with the survey (:func:`agrees`); or
 - what is left out, fixed at the value of the survey, is worth less than :data:`WORTH` sigma on this record, nothing is claimed without
@@ -14,34 +15,41 @@ Claims of effects for which the survey has no evidence (all but :data:`FOUNDED`)
 
 from __future__ import annotations
 
+import re
 import sys
 import tempfile
+import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from examples.mimu import record
-from examples.mimu.record import FRONT, RATE, Array
-from examples.mimu.sheet import sheet
-from examples.mimu.story import (
-    FLAT,
-    HERE,
-    MISREAD,
-    SHORT,
-    UNLIFTED,
-    diagnosed_of,
-    flights,
-    short_arm,
-    sure_of_angles,
-)
-from ragg_runtime.estimation.fitted import Fitted
+from examples.mimu.record import FRONT, RADIUS, RATE, Array, sheet
+from ragg_runtime.estimation.fitted import Fitted, fit
+from ragg_runtime.estimation.observation import observe_flights
+from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
+from ragg_runtime.io.record import ANGULAR_RATE
+from ragg_runtime.model import derive
+
+UNLIFTED = sheet(height="0 mm", lift="10")
+"""A sheet that knows nothing of the 2 mm between the two sides of the board, and not that it does not."""
+
+FLAT = sheet(height="0 mm", lift="0.3")
+"""One that is sure, to 0.3 degrees, that they are in one plane."""
+
+SHORT = 1.4
+"""mm by which a sheet that is sure of its radius (to 0.02 mm) has it too small."""
+
+MISREAD = 1.03
+"""Factor on all rates, as of one who takes 15.9 counts per deg/s where the chip gives 16.4."""
 
 BACK = tuple(k + 1 for k in FRONT)
 MIXED = (FRONT[0], FRONT[1], BACK[2], BACK[3])
@@ -58,7 +66,6 @@ FAR = 3.0
 
 SCATTER = 0.3
 """mm: how far the sensing elements of a quadruple may be from the middles of its chips, on average of four."""
-
 
 TURNS = ("imu-acceleration-misalignment", "imu-misalignment")
 """One side turned against the other: of the forces alone, or of the rates as well, where a milliradian is next to nothing."""
@@ -105,111 +112,167 @@ class SensorSet:
         return 1e3 * record.lifts(self.picked)
 
 
-@dataclass(frozen=True)
-class Raw:
-    """A recording: (N, 8, 3) m/s^2 and rad/s, (N,) saturated; where it rests, and from where it is thrown about."""
-
-    force: Array
-    rate: Array
-    saturated: NDArray[np.bool_]
-    quiet: NDArray[np.bool_]
-    start: int
-
-    @staticmethod
-    def of(path: Path) -> Raw:
-        force, rate, saturated = record.read(path)
-        quiet, start = record.parts(rate)
-        return Raw(force=force, rate=rate, saturated=saturated, quiet=quiet, start=start)
-
-    def case(
-        self,
-        name: str,
-        picked: Sequence[int] = FRONT,
-        seconds: tuple[float, float] = (0.0, record.LENGTH),
-        *,
-        rested: float = 1.0,
-        thin: int = 1,
-        noise: tuple[float, float] = (0.0, 0.0),
-    ) -> SensorSet:
-        """``seconds`` of the motion, and of the time before it the share ``rested``."""
-        rng = np.random.default_rng(15)
-        force, rate = (
-            x + s * rng.standard_normal(x.shape) for x, s in zip((self.force, self.rate), noise, strict=True)
-        )
-        before = slice(0, round(rested * self.start))
-        lying = record.rests(force[before], rate[before], self.quiet[before], picked)
-        at = slice(*(self.start + round(s * RATE) for s in seconds), thin)
-        marked, none = self.saturated[at], np.zeros_like(self.saturated[at])
-        flown = [record.motion(force[at], rate[at], x, picked) for x in (marked, none)]
-        flown = [replace(x, time=x.time * thin) for x in flown]
-        return SensorSet(name=name, picked=picked, rests=lying, moved=flown[0], unmarked=flown[1])
+def cases(path: Path | None, *names: str) -> Iterator[SensorSet]:
+    """The record of the page, and others, of a recording, or of what is shipped; all or those named."""
+    made = partial(_recorded, record.read(path)) if path else _shipped
+    for name in CASES if path else SHIPPED:
+        if not names or name in names:
+            yield made(name, **CASES[name])
 
 
-def cases(path: Path | None) -> Iterator[SensorSet]:
-    """The record of the page, and others, of a recording, or of what is shipped."""
-    if path is None:
-        yield from _shipped()
-        return
-    raw = Raw.of(path)
-    for name, how in CASES.items():
-        yield raw.case(name, **how)
+def _recorded(
+    raw: record.Raw,
+    name: str,
+    picked: Sequence[int] = FRONT,
+    seconds: tuple[float, float] = (0.0, record.LENGTH),
+    rested: float = 1.0,
+    thin: int = 1,
+    noise: tuple[float, float] = (0.0, 0.0),
+) -> SensorSet:
+    """``seconds`` of the motion, and of the time before it the share ``rested``."""
+    *measured, saturated = raw
+    quiet, start = record.parts(measured[1])
+    rng = np.random.default_rng(15)
+    force, rate = (x + s * rng.standard_normal(x.shape) for x, s in zip(measured, noise, strict=True))
+    before = slice(0, round(rested * start))
+    lying = record.rests(force[before], rate[before], quiet[before], picked)
+    at = slice(*(start + round(s * RATE) for s in seconds), thin)
+    marks = saturated[at], np.zeros_like(saturated[at])
+    flown = [record.motion(force[at], rate[at], x, picked) for x in marks]
+    return SensorSet(name, picked, lying, *(replace(x, time=x.time * thin) for x in flown))
 
 
-def _shipped() -> Iterator[SensorSet]:
+def _shipped(
+    name: str = "page", seconds: tuple[float, float] = (0.0, record.LENGTH), thin: int = 1
+) -> SensorSet:
     """Of the flights beside this file, in which saturated samples are marked already."""
-    lying, moved = (read_flight(HERE / f"{n}.parquet", record.G0) for n in ("rests", "motion"))
-    half = len(moved) // 2
-    parts = (slice(None), slice(0, half), slice(half, None), slice(None, None, THINNED))
-    for name, rows in zip(SHIPPED, parts, strict=True):
-        channels, outputs = ({n: v[rows] for n, v in x.items()} for x in (moved.channels, moved.outputs))
-        part = replace(
-            moved, time=moved.time[rows], channels=channels, outputs=outputs, valid=moved.valid[rows]
-        )
-        yield SensorSet(name, FRONT, lying, part)
+    lying, x = (read_flight(Path(__file__).with_name(f"{n}.parquet"), record.G0) for n in ("rests", "motion"))
+    rows = slice(*(int(len(x) * s / record.LENGTH) for s in seconds), thin)
+    channels, outputs = ({n: v[rows] for n, v in of.items()} for of in (x.channels, x.outputs))
+    moved = replace(x, time=x.time[rows], channels=channels, outputs=outputs, valid=x.valid[rows])
+    return SensorSet(name, FRONT, lying, moved)
 
 
-@dataclass(frozen=True)
-class Answer:
-    """To a question: whether it holds, in words, and which of its claims have no evidence."""
-
-    question: str
-    holds: bool
-    words: str
-    unfounded: tuple[str, ...]
-
-    @staticmethod
-    def of(question: str, d: Diagnosis, holds: bool, values: str = "") -> Answer:
-        words = "; ".join(x for x in (values, f"{d.verdict} {', '.join(d.found)}".strip()) if x)
-        return Answer(question, holds, words, tuple(e for e in d.found if e not in FOUNDED))
-
-
-def questions(c: SensorSet) -> Iterator[Answer]:
-    """What is asked, and the answers."""
-    own = [f"{x:.4g} mm" for x in c.lifts]
-    same = bool(np.ptp(c.lifts) == 0.0)
-    if same:
-        yield agrees("lever arm", ask(c, FLAT), "imu-lever-arm", {"l_z": -1e-3 * c.lifts.mean()}, 0.2e-3)
-    free = UNLIFTED if same else sheet(height=own, lift="10")
-    short = short_arm("0 mm" if same else own)
-    yield agrees("arm length", ask(c, short), "arm-length", {"delta_R": SHORT}, SCATTER)
-    d = ask(c, free, MISREAD)
-    yield agrees("gyro scale", d, "gyro-scale", {"s_x": 0.03, "s_y": 0.03}, 0.0)
-    d = ask(c, sure_of_angles(free))
-    yield Answer.of("misalignments", d, any(e in d.found for e in TURNS))
-    if c.unmarked is None:
-        return
-    d = ask(replace(c, moved=c.unmarked), free)
-    yield Answer.of("saturation", d, "imu-saturation" in d.found)
-
-
-def ask(c: SensorSet, text: str, factor: float = 1.0) -> Diagnosis:
-    """What ``ragg diagnose`` says of a case with this sheet, the rates times a factor."""
-    i = parse_instrument(text)
+def read_back(c: SensorSet, i: Instrument, misread: float = 1.0) -> list[Flight]:
+    """Rests and motion from files, the rates times a factor; channels of the motion alone are zero at rest."""
     with tempfile.TemporaryDirectory() as folder:
         paths = [Path(folder) / f"{n}.parquet" for n in ("rests", "motion")]
         for x, path in zip((c.rests, c.moved), paths, strict=True):
             write_flight(x, path)
-        return diagnosed_of(i, flights(i, paths[1], factor, rests=paths[0]))
+        lying, moved = (read_flight(p, i.g0, accelerometers=i.layout) for p in paths)
+    still = {n: np.zeros(len(lying)) for n in moved.channels if n not in lying.channels}
+    lying = replace(lying, channels={**lying.channels, **still})
+    return [
+        replace(x, channels={n: v * misread if n in ANGULAR_RATE else v for n, v in x.channels.items()})
+        for x in (lying, moved)
+    ]
+
+
+def diagnosed(text: str, c: SensorSet | None = None, misread: float = 1.0) -> Diagnosis:
+    """What ``ragg diagnose`` says of a case (of the page's) with this sheet, the rates times a factor."""
+    i = parse_instrument(text)
+    flights = read_back(c or _shipped(), i, misread)
+    return diagnose(derive.load_model(i), i, flights, partial(derive.with_effects, i))
+
+
+# --- the page --------------------------------------------------------------------------------------------
+
+
+def short_arm(height: str | Sequence[str] = "0 mm") -> str:
+    """A sheet whose radius is too small by :data:`SHORT`."""
+    return sheet(height=height, lift="10", radius=f"{RADIUS - SHORT:.5g} mm", arm="0.02")
+
+
+def sure_of_angles(text: str) -> str:
+    """A sheet that is sure of its angles to 0.02 degrees."""
+    return re.sub(r"((?:beta_z|vartheta_.) = .*?sigma = )3", r"\g<1>0.02", text)
+
+
+def calibrated(text: str, *effects: str) -> tuple[Array, Array]:
+    """Arms and lifts, each values and uncertainties (2, 4), mm, of a calibration with these effects in the model beside its own."""
+    i = parse_instrument(text)
+    i = replace(i, effects=(*i.effects, *(EffectSetting(e) for e in effects)))
+    model = derive.load_model(i, candidates=False)
+    f = fit(model, i, observe_flights(read_back(_shipped(), i), i))
+    c = f.calibration
+    std = np.sqrt(np.diag(c.covariance)) * np.array([q.scale for q in c.columns])
+
+    def of(name: str, factor: float) -> Array:
+        at = [n for n, q in enumerate(c.columns) if q.name == name]
+        return factor * np.array([c.p[c.index[at]], std[at]])
+
+    return of("dR", 1e3) + np.array([[f.instrument.radius * 1e3], [0.0]]), of("beta_x", RADIUS)
+
+
+def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A table in Markdown."""
+    lines = [heads, ["---"] * len(heads), *rows]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def known() -> str:
+    """What is known from elsewhere, beside what the fit says."""
+
+    def four(x: Array) -> str:
+        return ", ".join(f"{v:.2f} ± {s:.2f}" for v, s in x.T) + " mm"
+
+    (arm, lift), (later, _) = calibrated(UNLIFTED), calibrated(UNLIFTED, "gyro-delay")
+    return table(
+        ("quantity", "found", "known"),
+        (
+            ("arms A1 ... A4, sheet 13.364 ± 0.5 mm", four(arm), "13.364 mm (survey)"),
+            ("the same, `gyro-delay` in the model", four(later), "13.364 mm"),
+            ("front above back, as height of each (sheet: 0)", four(lift), "2.00 mm"),
+        ),
+    )
+
+
+def ranked(d: Diagnosis, most: int = 4) -> str:
+    """What a diagnosis ranks first, its verdict, and what it finds left over."""
+    rows = []
+    for r in d.ranking[:most]:
+        own = [f"{q.name} = {q.value:.2g} ± {q.std:.1g} {q.unit.removesuffix('1')}" for q in r.parameters[:3]]
+        log_p = f"{r.log_p / np.log(10.0):.0f}" if np.isfinite(r.log_p) else "certain"
+        rows.append((f"`{r.effect}`", log_p, ", ".join(x.rstrip() for x in own)))
+    said = f"\n\nVerdict: `{d.verdict}`" + (f", {', '.join(d.found)}" if d.found else "")
+    left = [f"{x['harmonic']} × `{x['term']}`" for x in d.terms()[:3]] if d.verdict == "unexplained" else []
+    more = [f"left over: {', '.join(left)}"] if left else []
+    return table(("effect", "log10 p", "parameters"), rows) + "; ".join([said, *more]) + "."
+
+
+# --- the questions ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Answer:
+    """To a question: whether it holds, which of its claims have no evidence, and in words."""
+
+    question: str
+    holds: bool
+    unfounded: tuple[str, ...]
+    words: str
+
+    @staticmethod
+    def of(question: str, d: Diagnosis, holds: bool, values: str = "") -> Answer:
+        words = "; ".join(x for x in (values, f"{d.verdict} {', '.join(d.found)}".strip()) if x)
+        return Answer(question, holds, tuple(e for e in d.found if e not in FOUNDED), words)
+
+
+def questions(c: SensorSet) -> Iterator[Answer]:
+    """What is asked, and the answers."""
+    same = bool(np.ptp(c.lifts) == 0.0)
+    heights = "0 mm" if same else [f"{x:.4g} mm" for x in c.lifts]
+    free, short = sheet(height=heights, lift="10"), short_arm(heights)
+    if same:
+        arm = {"l_z": -1e-3 * c.lifts.mean()}
+        yield agrees("lever arm", diagnosed(FLAT, c), "imu-lever-arm", arm, 0.2e-3)
+    yield agrees("arm length", diagnosed(short, c), "arm-length", {"delta_R": SHORT}, SCATTER)
+    yield agrees("gyro scale", diagnosed(free, c, MISREAD), "gyro-scale", {"s_x": 0.03, "s_y": 0.03}, 0.0)
+    d = diagnosed(sure_of_angles(free), c)
+    yield Answer.of("misalignments", d, any(e in d.found for e in TURNS))
+    if c.unmarked is not None:
+        d = diagnosed(free, replace(c, moved=c.unmarked))
+        yield Answer.of("saturation", d, "imu-saturation" in d.found)
 
 
 def agrees(question: str, d: Diagnosis, effect: str, known: Mapping[str, float], scatter: float) -> Answer:
@@ -223,14 +286,9 @@ def agrees(question: str, d: Diagnosis, effect: str, known: Mapping[str, float],
     if not near:
         sigmas = worth(d.fitted, effect, known)
         parts.append(f"worth {sigmas:.1f} sigma")
-        near = sigmas < WORTH and set(d.found) <= FOUNDED - {effect} and effect in _insufficient(d)
+        said = " ".join([str(d.as_json()["reason"]), *(n.effect for n in d.not_testable)])
+        near = sigmas < WORTH and set(d.found) <= FOUNDED - {effect} and effect in said
     return Answer.of(question, d, bool(near), "; ".join(parts))
-
-
-def _insufficient(d: Diagnosis) -> str:
-    """Where an answer may say that the record does not suffice for an effect."""
-    j = d.as_json()
-    return " ".join([str(j["reason"]), *(n.effect for n in d.not_testable)])
 
 
 def worth(f: Fitted, effect: str, known: Mapping[str, float]) -> float:
@@ -251,11 +309,16 @@ def worth(f: Fitted, effect: str, known: Mapping[str, float]) -> float:
     return float(np.sqrt(own @ own / (rest @ rest / rows)))
 
 
+def answer(path: Path | None, case: str) -> dict[str, Any]:
+    """The answers about a case as JSON, and the processor time they took, s."""
+    begin = time.process_time()
+    answers = [asdict(a) for c in cases(path, case) for a in questions(c)]
+    return {"answers": answers, "cpu": round(time.process_time() - begin, 1)}
+
+
 def main(raw: str | None = None, *names: str) -> None:
     answers = []
-    for c in cases(None if raw is None else Path(raw)):
-        if names and c.name not in names:
-            continue
+    for c in cases(None if raw is None else Path(raw), *names):
         for a in questions(c):
             answers.append(a)
             print(f"{c.name:18} {a.question:14} {'yes' if a.holds else 'NO':4} {a.words}", flush=True)

@@ -6,14 +6,15 @@ RAW is a recording of H. Carlsson, I. Skog and J. Jalden (see LICENSE.mimu-array
 the corners of a square, are the gradiometer: their axes along the tangents of the circle through them. Specific force is the
 mean of the four of the back, angular rate that of all eight. Angular acceleration is what the four of the back feel beside
 each other: no output of the gradiometer enters it, nor a derivative of what is sampled too slowly for one. At each corner front
-and back may change places (``picked``): sixteen gradiometers on one board.
+and back may change places (``picked``): sixteen gradiometers on one board. ``sheet`` is its model.toml: what a data sheet and a ruler
+say, and how sure they are.
 """
 
 from __future__ import annotations
 
 import gzip
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +24,8 @@ from scipy.ndimage import binary_dilation
 from ragg_runtime.io import Flight, write_flight
 
 Array = NDArray[np.float64]
+Raw = tuple[Array, Array, NDArray[np.bool_]]
+"""Specific force (N, 8, 3) m/s^2, angular rate (N, 8, 3) rad/s, by the axes of the board, and what is saturated (N,)."""
 
 RATE = 62.5
 """Hz."""
@@ -39,10 +42,13 @@ THICK = 1e-3
 CORNERS = ((-1, 1), (-1, -1), (1, 1), (1, -1))
 """Of sensors 1, 3, 5, 7 (front) and 2, 4, 6, 8 (back)."""
 
-PLACES = ((2, 45.0), (1, 225.0), (0, 135.0), (3, 315.0))
-"""Corner and angle, deg, of A1 ... A4."""
+RADIUS = 13.364
+"""mm: of the circle through them."""
 
-FRONT = tuple(2 * corner for corner, _ in PLACES)
+PLACES = ((2, 45, 1), (1, 225, 1), (0, 135, -1), (3, 315, -1))
+"""Corner, angle, deg, and sign of A1 ... A4."""
+
+FRONT = tuple(2 * corner for corner, *_ in PLACES)
 """Sensors, counted from 0, that are A1 ... A4."""
 
 FULL_SCALE = 32760
@@ -61,27 +67,22 @@ LENGTH = 45.0
 """Length of the second record, which begins there, s: as small as serves."""
 
 
-def whole_packets(raw: bytes) -> Iterator[slice]:
-    """Where the whole packets of a recording stand; broken ones are left out."""
-    at = 0
+def packets(raw: bytes) -> NDArray[np.int16]:
+    """(N, 8, 2, 3) counts: sensor, accelerometer or gyroscope, axis; broken packets are left out."""
+    at, found = 0, []
     while at + 106 <= len(raw):
         end = at + 6 + raw[at + 3]
         whole = raw[at] == 0xAA and raw[at + 3] == 100
         if whole and sum(raw[at : end - 2]) & 0xFFFF == int.from_bytes(raw[end - 2 : end], "big"):
-            yield slice(at, end)
+            found.append(np.frombuffer(raw[at + 8 : at + 104], ">i2").reshape(8, 2, 3).astype(np.int16))
             at = end
         else:
             at += 1
+    return np.array(found)
 
 
-def packets(raw: bytes) -> NDArray[np.int16]:
-    """(N, 8, 2, 3) counts: sensor, accelerometer or gyroscope, axis."""
-    bodies = (raw[p][8:104] for p in whole_packets(raw))
-    return np.array([np.frombuffer(b, ">i2").reshape(8, 2, 3).astype(np.int16) for b in bodies])
-
-
-def read(path: Path) -> tuple[Array, Array, NDArray[np.bool_]]:
-    """Specific force (N, 8, 3) m/s^2, angular rate (N, 8, 3) rad/s, by the axes of the board, and what is saturated."""
+def read(path: Path) -> Raw:
+    """A recording."""
     counts = packets(gzip.decompress(path.read_bytes()))
     saturated = np.any(np.abs(counts.astype(int)) >= FULL_SCALE, axis=(1, 2, 3))
     force = counts[:, :, 0] * (G0 / PER_G)
@@ -129,7 +130,7 @@ def columns(
     # The gradient of the Earth's field, 3e-6 s^-2, is nothing beside (2000 deg/s)^2 = 1e3 s^-2: known to be none.
     channels |= {f"Gamma_{k}": np.zeros(len(a)) for k in ("xx", "xy", "xz", "yy", "yz", "zz")}
     outputs = {}
-    for j, (sensor, (_, degrees)) in enumerate(zip(picked, PLACES, strict=True)):
+    for j, (sensor, (_, degrees, _)) in enumerate(zip(picked, PLACES, strict=True)):
         angle = np.deg2rad(degrees)
         tangent = np.array([-np.sin(angle), np.cos(angle), 0.0])
         outputs[f"V_{j + 1}"] = force[:, sensor] @ tangent / G0  # 1 V per g
@@ -164,6 +165,42 @@ def parts(rate: Array) -> tuple[NDArray[np.bool_], int]:
     """(N,) where the array rests, and the sample from which it is thrown about; ``rate`` (N, 8, 3) rad/s."""
     size = np.linalg.norm(rate.mean(axis=1), axis=1)
     return ~binary_dilation(size > REST, np.ones(BLOCK)), int(np.argmax(size > MOTION_FROM))
+
+
+def sheet(
+    height: str | Sequence[str] = "2 mm", radius: str = f"{RADIUS} mm", lift: str = "5", arm: str = "0.5"
+) -> str:
+    """The model.toml; ``lift`` deg and ``arm`` mm say how sure it is of beta_x and dR; a ``height`` for each or all."""
+    heights = (height,) * len(PLACES) if isinstance(height, str) else height
+    text = f"""\
+# Four of eight MEMS accelerometers on a board, along the tangents of the circle through them: a gradiometer
+# that stands still. The measurement frame's origin is amidst the four on the back, 2 mm below.
+effects = []
+g0 = "9.81 m/s^2"
+
+[model]
+kinematics = "full"
+
+[[disc]]
+name = "A"
+radius = "{radius}"
+spin_frequency = "0 Hz"
+"""
+    for j, ((_, angle, sign), above) in enumerate(zip(PLACES, heights, strict=True), 1):
+        text += f"""\
+[[disc.accelerometer]]
+name = "A{j}"
+angle = "{angle} deg"
+height = "{above}"
+sign = {sign}
+output = "G_out"
+"""
+    sigmas = {"dR": (0, arm, "mm"), "beta_x": (0, lift, "deg")}
+    sigmas |= dict.fromkeys(("beta_z", "vartheta_x", "vartheta_y", "vartheta_z"), (0, 3, "deg"))
+    sigmas |= {"K0": (0, 60, "mg"), "K1": (1, 0.03, "A/g")}
+    sigmas |= {f"K{n}": (0, 2, "mg/g^2") for n in (2, 4, 5, 6, 7, 8)}
+    lines = [f'{n} = {{ value = {v}, sigma = {s}, unit = "{u}" }}' for n, (v, s, u) in sigmas.items()]
+    return "\n".join([f"{text}\n[accelerometers]", *lines, 'k_VI = { value = 1, unit = "ohm" }\n'])
 
 
 def main(raw: str, folder: str) -> None:

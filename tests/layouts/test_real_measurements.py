@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from examples.mimu import elsewhere, record, story
-from examples.mimu.sheet import sheet
+from examples.mimu import elsewhere, record
+from examples.mimu.record import sheet
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observe_flights
@@ -62,7 +62,7 @@ def test_motion_tells_where_the_accelerometers_are(unlifted: Fitted) -> None:
 
 
 def test_the_lever_arm_that_is_left_out_is_found_and_agrees_with_the_survey() -> None:
-    d = story.diagnosed(story.FLAT)
+    d = elsewhere.diagnosed(elsewhere.FLAT)
     assert d.verdict == "missing-effect"
     assert {"imu-lever-arm", "gyro-delay"} <= set(d.found) <= elsewhere.FOUNDED
     arm = {q.name: q for r in d.ranking if r.effect == "imu-lever-arm" for q in r.parameters}

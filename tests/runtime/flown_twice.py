@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.sheet import model_text
+from benchmarks.diagnosis.plan import model_text
 from ragg_runtime.cli.main import main
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion, scenario

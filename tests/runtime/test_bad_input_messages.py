@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from commands import ragg
 
-from benchmarks.sheet import model_text
+from benchmarks.diagnosis.plan import model_text
 from ragg_runtime import api
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.reference.scenario import Scenario, scenario

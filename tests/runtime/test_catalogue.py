@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from benchmarks.diagnosis import fly, plan, records
-from benchmarks.diagnosis.strength import NEVER, Oracle
+from benchmarks.diagnosis.oracle import NEVER, Oracle
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.regressors import group_by_effect, linearise, make_point
 from ragg_runtime.identification.selection import ProjectedProblem, choose, find_alternatives
@@ -63,8 +63,8 @@ def flight() -> WhitenedFlight:
         patch.setattr(plan, "RATE", 8.0)
         spec = plan.Spec("each", "white", 0, 4430)
         world = plan.world(spec)
-    plain = fly._simulated(world, {})
-    loudness = records.KINDS["white"].noise(fly._table(plain, plain.voltages_noise_free), spec.rng(2))
+    plain = fly.simulated(world, {})
+    loudness = records.KINDS["white"].noise(fly.table(plain, plain.voltages_noise_free), spec.rng(2))
     oracle = Oracle(world, plain.flight(), loudness)
     white = oracle.whitened(oracle.raw)
     prior = np.pad(np.eye(oracle.n), ((0, 0), (0, len(white) - oracle.n)))
@@ -76,7 +76,7 @@ def flight() -> WhitenedFlight:
 def test_it_is_named_first_or_one_that_is_stated_to_be_like_it(flight: WhitenedFlight, effect: str) -> None:
     o, rng = flight.oracle, np.random.default_rng(1)
     hidden = next(h for h in (o.drawn(effect, SIGMAS, rng) for _ in range(DIRECTIONS)) if h is not None)
-    sim = fly._simulated(flight.world, {effect: hidden.values})
+    sim = fly.simulated(flight.world, {effect: hidden.values})
     known = make_point(o.model, flight.world.known, make_vector(o.model, flight.world.known))
     residual = linearise(known, observe(sim.flight(), flight.world.known))[-1]
     field = flight.field(o.whitened(residual[None])[0] + flight.noise)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy import signal
 from scipy.signal import freqz
 
-from benchmarks.sheet import model_text
+from benchmarks.diagnosis.plan import model_text
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.identification.comparison import Comparison, compare
 from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation

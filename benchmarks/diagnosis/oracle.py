@@ -6,23 +6,32 @@ second effect with all of its parameters. It is the expected significance of the
 derivatives of the generated model at the true instrument. No column has: ``spin-rate-jitter`` (the expected score of the test
 of its variance), ``quantisation`` (the growth of the variance by q^2/12, in sigmas of its estimate) and ``saturation`` (the
 norm of what is clipped, at least ten samples).
+
+``weigh`` says what could be found at most: an oracle that knows noise and true instrument tests the effect that is hidden, and no other.
+Its test is that of the diagnosis, with the same columns and the same sheet (``likelihood_ratio.test``), at the level of the catalogue over
+the number of independent tests; of a step it knows the instant. Of effects without columns it has the scores of above.
 """
 
 from __future__ import annotations
 
 from collections.abc import Container, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
+from scipy import signal, special
 from scipy.interpolate import BSpline
 
 from benchmarks.diagnosis.plan import World
-from benchmarks.diagnosis.records import Loudness
+from benchmarks.diagnosis.records import Loudness, Table
+from ragg_runtime.base import false_alarms
 from ragg_runtime.estimation import regressors as design
-from ragg_runtime.estimation.observation import observe
+from ragg_runtime.estimation.least_squares import compute_r_factor
+from ragg_runtime.estimation.observation import BLOCKS, observe
 from ragg_runtime.estimation.regressors import Column, linearise, make_point
+from ragg_runtime.identification import likelihood_ratio
+from ragg_runtime.identification.selection import ProjectedProblem
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import load_packaged, make_vector
 from ragg_runtime.reference.effects import CATALOGUE
@@ -63,9 +72,6 @@ class Hidden:
     values: Mapping[str, float | list[float]]
     plausible: float
     strength: float
-
-    def as_json(self) -> dict[str, object]:
-        return asdict(self)
 
 
 class Oracle:
@@ -256,15 +262,78 @@ def _direction(effect: str, own: Sequence[Column], rng: np.random.Generator) -> 
 
 
 def _values(effect: str, own: Sequence[Column], coefficients: Array) -> dict[str, float | list[float]]:
-    values: dict[str, float | list[float]] = {}
-    for c, x in zip(own, coefficients, strict=True):
+    """Parameters for the simulator, SI: one, or one of each accelerometer."""
+    values: dict[str, Any] = {}
+    for c, x in zip(own, coefficients * [c.scale for c in own], strict=True):
         name = c.name.split(".", 1)[1]
         if name not in CATALOGUE[effect] or x == 0.0:
             continue
         if c.accelerometer is None:
-            values[name] = float(x * c.scale)
+            values[name] = float(x)
         else:
-            four = values.setdefault(name, [0.0] * 4)
-            assert isinstance(four, list)
-            four[c.accelerometer - 1] = float(x * c.scale)
+            values.setdefault(name, [0.0] * 4)[c.accelerometer - 1] = float(x)
     return values
+
+
+# --- the ceiling -----------------------------------------------------------------------------------------
+
+
+def weigh(o: Oracle, w: World, table: Table, h: Hidden) -> dict[str, Any]:
+    """The oracle's p-value of what is hidden in a flight, by itself and over the catalogue."""
+    left = _left(o, w, table)
+    log_p = _log_p(o, h, left) / np.log(10.0)
+    over = log_p + np.log10(_field(o, left).effective_count)
+    return {
+        "hidden": h.effect,
+        "log10_p": round(log_p, 2),
+        "over_catalogue": round(over, 2),
+        "alone": int(log_p < np.log10(false_alarms.PROMISED)),
+        "found": int(over < np.log10(false_alarms.CATALOGUE)),
+    }
+
+
+def _left(o: Oracle, w: World, table: Table) -> Array:
+    """(rows + n,): the whitened record and the sheet, less what the true instrument makes of the recorded motion, projected."""
+    outputs = {n: np.nan_to_num(table[n]) for n in o.flight.outputs}
+    x = observe(
+        replace(o.flight, channels={n: table[n] for n in o.flight.channels}, outputs=outputs), w.known
+    )
+    true = make_vector(o.model, w.known)
+    rest = np.stack(x.series) - design.predict_observed(o.model, x, true)
+    base = design.list_base_columns(o.model, w.known)
+    sheet = [(make_vector(o.model, w.scenario.sheet)[k] - true[k]) / c.scale for c, k in base]
+    y = np.concatenate([o.whitened(np.where(o.valid, rest, 0.0)[None])[0], sheet])
+    return np.asarray(y - o.Q @ (o.Q.T @ y))
+
+
+def _log_p(o: Oracle, h: Hidden, left: Array) -> float:
+    """Logarithm of the p-value of an effect's own test."""
+    at, data = o.of(h.effect), left[: o.rows]
+    if o.kinds[h.effect] == "random":
+        shape = o.white[at[0]] ** 2
+        return _normal((shape - np.mean(shape)) @ data**2 / np.sqrt(2.0 * len(data)) / np.std(shape))
+    if h.effect == "quantisation":
+        return _normal(np.sum(data**2 - 1.0) / np.sqrt(2.0 * len(data)))
+    if h.effect == "saturation":
+        G, most = o.flight.outputs["G_out"], h.values["V_max"]
+        clipped = o.row(np.clip(G, -most, most) - G)
+        return _normal(clipped @ left / np.linalg.norm(clipped))
+    block = o.block(h.effect, h.values.get("t_step"))  # type: ignore[arg-type]
+    P = compute_r_factor(np.concatenate([block, left[None]]))
+    columns = [(n, o.columns[k]) for n, k in enumerate(at)]
+    charge = float(np.log(2 * BLOCKS)) if o.kinds[h.effect] == "step" else 0.0
+    return likelihood_ratio.test(P, columns, np.full(len(P), likelihood_ratio.TESTABLE), charge).log_p
+
+
+def _normal(z: float | np.floating[Any]) -> float:
+    return float(special.log_ndtr(-z))
+
+
+def _field(o: Oracle, left: Array) -> ProjectedProblem:
+    """All effects with columns; steps from the middle on."""
+    middle = float(np.mean(o.flight.time[[0, -1]]))
+    ids = [e for e, kind in o.kinds.items() if kind in ("deterministic", "step")]
+    T = compute_r_factor(np.concatenate([*(o.block(e, middle) for e in ids), left[None]]))
+    columns = iter(enumerate(o.columns[k] for e in ids for k in o.of(e)))
+    candidates = {e: tuple(next(columns) for _ in o.of(e)) for e in ids}
+    return ProjectedProblem(T=T, n_base=0, candidates=candidates)

@@ -1,1 +1,0 @@
-"""Examples: ``python -m examples.demo`` runs the main job on a flight that ships with the project."""
