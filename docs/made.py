@@ -125,7 +125,7 @@ def demonstration(reports: Path) -> Demonstration:
     """Go through the loop in the current folder, once for all pages; the reports of diagnosis and addition go to ``reports``."""
     from ragg_runtime import api
     from ragg_runtime.cli.main import cli
-    from ragg_runtime.report.pages import Origin, write_addition, write_diagnosis
+    from ragg_runtime.report.pages import write_addition, write_diagnosis
 
     shutil.copy(FLIGHT, FLIGHT.name)
     m = api.new(Path("model"))
@@ -134,13 +134,11 @@ def demonstration(reports: Path) -> Demonstration:
     d = api.diagnose(m, flights, compared=c)
     step = api.add(m, d.found[0], flights)
     assert step.after is not None
-    origin = Origin("Demonstration: diagnosis", "ragg demo", api.Source("ragg demo", m, flights).inputs)
-    (reports / "diagnosis.html").write_text(write_diagnosis(d, origin), "utf-8")
-    origin = Origin(
-        "Demonstration: the effect added", "ragg demo", api.Source("ragg demo", step.loaded, flights).inputs
-    )
+    source = api.Source("ragg demo", m, flights, title="Demonstration: diagnosis")
+    (reports / "diagnosis.html").write_text(write_diagnosis(d, source), "utf-8")
+    source = api.Source("ragg demo", step.loaded, flights, title="Demonstration: the effect added")
     steps = [s.as_json() for s in step.loaded.directory.history]
-    (reports / "report.html").write_text(write_addition(steps, c, step.after, origin, d), "utf-8")
+    (reports / "report.html").write_text(write_addition(steps, c, step.after, source, d), "utf-8")
     documents = {
         name: made | api.Source(f"ragg {name} model", m, flights).as_json()
         for name, made in {"compare": c.as_json(), "diagnose": d.as_json()}.items()

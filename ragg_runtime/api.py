@@ -352,7 +352,7 @@ def source_of_survey(m: Loaded, s: Survey, command: str) -> Source:
     files = [
         (r["flight"], r["file"], r["sha256"] if "sha256" in r else digest_file(r["file"])) for r in s.records
     ]
-    return Source(command, m, files=files)
+    return Source(command, m, files=files, title=f"{m.name} and {len(s.records)} flights")
 
 
 # --- calibrations

@@ -246,35 +246,42 @@ class Source:
     """What a result was made from: the ``command``, model and flights.
 
     ``before``: the model before the command changed it. ``further``: notes. ``files``: name, path and SHA-256 (``None``: it cannot be
-    read) of flights that were read elsewhere.
+    read) of what was read elsewhere. ``title``: of its report.
     """
 
     command: str
-    m: Loaded
+    m: Loaded | None = None
     flights: Sequence[Flight] = ()
     before: Loaded | None = None
     further: Sequence[str] = ()
     files: Sequence[tuple[str, str, str | None]] = ()
+    title: str = ""
+
+    @property
+    def heading(self) -> str:
+        """The title, else the model and the flights."""
+        flights = ", ".join(x.name for x in self.flights)
+        return self.title if self.title or self.m is None else f"{self.m.name} and {flights}"
 
     @property
     def notes(self) -> list[str]:
         """What was done to model directory and flights, or looks odd in them."""
         return [
             *self.further,
-            *self.m.notes,
+            *(self.m.notes if self.m else ()),
             *(f"{x.name}: {note}" for x in self.flights for note in x.notes),
         ]
 
     @property
     def inputs(self) -> list[tuple[str, str]]:
         """(name, SHA-256) of everything that the result depends on."""
-        text = compute_digest(self.m.directory.text)
-        read = [(x.name, x.digest) for x in self.flights]
+        model = [(f"{m.name}/model.toml", compute_digest(m.directory.text)) for m in (self.m,) if m]
         elsewhere = [(name, digest) for name, _, digest in self.files if digest]
-        return [(f"{self.m.name}/model.toml", text), *read, *elsewhere]
+        return [*model, *((x.name, x.digest) for x in self.flights), *elsewhere]
 
     def as_json(self) -> dict[str, object]:
         """What the reader did to the flights (``notes``), and what makes the result again (``provenance``)."""
+        assert self.m is not None
         model = {
             "model": str(self.m.directory.path),
             "model_digest": compute_digest(self.m.directory.text),

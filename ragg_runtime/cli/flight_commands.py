@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from ragg_runtime import api, next_flight
     from ragg_runtime.api import Added, Loaded
     from ragg_runtime.report import pages
-    from ragg_runtime.report.pages import Origin
 else:
     api, next_flight, pages = map(Later, ("api", "next_flight", "report.pages"))
 
@@ -72,9 +71,9 @@ def compare(
     else:
         result = held.as_json()
         said = describe.describe_held(result, names, then, again)
-    title = f"{m.name}, frozen, and {', '.join(names)}" if frozen else None
-    page = lambda origin: pages.write_comparison(c, origin, held)  # noqa: E731
-    conclude(result, said, source_of(m, records, further=odd), page, title)
+    title = f"{m.name}, frozen, and {', '.join(names)}" if frozen else ""
+    source = source_of(m, records, further=odd, title=title)
+    conclude(result, said, source, lambda: pages.write_comparison(c, source, held))
 
 
 def _calibration_notes(m: Loaded) -> list[str]:
@@ -100,7 +99,8 @@ def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], ma
     result = d.as_json()
     then = next_command("add", model_dir, records, mapping, d.found[0]) if d.found else ""
     said = describe.describe_diagnosis(result, then)
-    conclude(result, said, source_of(m, records), lambda origin: pages.write_diagnosis(d, origin))
+    source = source_of(m, records)
+    conclude(result, said, source, lambda: pages.write_diagnosis(d, source))
 
 
 @click.command(cls=Command, report=True)
@@ -120,15 +120,16 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
     use = next_command("calibrate", model_dir, records, mapping) + " --save"
 
     def tell(result: Added) -> None:
-        def page(origin: Origin) -> str:
+        def page() -> str:
             assert result.before is not None
             assert result.after is not None
             steps = [s.as_json() for s in result.loaded.directory.history]
-            return pages.write_addition(steps, result.before, result.after, origin)
+            return pages.write_addition(steps, result.before, result.after, source)
 
         found = result.as_json()
         said = describe.describe_addition(found, [e.id for e in result.loaded.model.effects], check, use)
-        conclude(found, said, source_of(result.loaded, records, before=m), page, f"{m.name}: {effect} added")
+        source = source_of(result.loaded, records, before=m, title=f"{m.name}: {effect} added")
+        conclude(found, said, source, page)
 
     with working(f"deriving the model with {effect}{', calibrating' if flights else ''}", "add", records):
         result = api.add(m, effect, records, tell)
@@ -196,8 +197,9 @@ def next_motion(
         write_text(Path(run_sheet), next_flight.write_run_sheet(found))
     write_flight(found.motion(), Path(output))
     said = describe_other.describe_next_motion(found.as_json(), output)
-    page = lambda origin: pages.write_info(said, [found.motion()], origin, "The next motion")  # noqa: E731
-    conclude(found.as_json(), said, source_of(m, records), page)
+    source = source_of(m, records)
+    page = lambda: pages.write_info(said, [found.motion()], source, "The next motion")  # noqa: E731
+    conclude(found.as_json(), said, source, page)
 
 
 @click.command(cls=Command, report=True)
@@ -225,8 +227,8 @@ def calibrate(
     use = f"{next_command('compensate', model_dir, records)} -o compensated.csv --calibration "
     then = f"{use}{'smoothed' if drifts else 'frozen'}" if drifts or kept.saved else ""
     said = describe_other.describe_calibration(found, [x.name for x in records], then)
-    page = lambda origin: pages.write_calibration(said, kept.calibrated.fitted, origin)  # noqa: E731
-    conclude(found, said, source_of(kept.loaded, records), page)
+    source = source_of(kept.loaded, records)
+    conclude(found, said, source, lambda: pages.write_calibration(said, kept.calibrated.fitted, source))
 
 
 @click.command(cls=Command, report=True)
@@ -294,7 +296,7 @@ def compensate(
     made = describe_other.describe_online if calibration == "online" else describe_other.describe_compensation
     said = made(result, output)
     source = source_of(m, records, further=[*result.get("notes", ()), *odd])
-    page = lambda origin: pages.write_compensation(said, c.series, origin)  # noqa: E731
+    page = lambda: pages.write_compensation(said, c.series, source)  # noqa: E731
     conclude(result | {"output": str(out)}, said, source, page)
 
 
@@ -351,6 +353,6 @@ def survey(model_dir: Path, flights: Sequence[Path], table_file: str | None, **o
     source = api.source_of_survey(m, s, command_line())
     if table_file is not None:
         write_bytes(Path(table_file), make_parquet(s.records))
-    page = lambda origin: pages.write_survey(s, origin, model_dir)  # noqa: E731
     result = s.as_json() | {"sources": [{"name": n, "sha256": digest} for n, digest in source.inputs]}
-    conclude(result, s.sections(model_dir), source, page, f"{m.name} and {len(s.records)} flights")
+    page = lambda: pages.write_survey(s, source, model_dir)  # noqa: E731
+    conclude(result, s.sections(model_dir), source, page)

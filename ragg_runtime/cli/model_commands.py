@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib.util
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -37,7 +36,6 @@ if TYPE_CHECKING:
     from ragg_runtime import simulate as simulator
     from ragg_runtime.api import Loaded
     from ragg_runtime.report import pages
-    from ragg_runtime.report.pages import Origin
 else:
     api, io, pages, simulator = map(Later, ("api", "io", "report.pages", "simulate"))
 
@@ -126,10 +124,12 @@ def history(model_dir: Path) -> None:
     steps = [s.as_json() for s in d.history]
     model = {"model": str(d.path), "model_digest": compute_digest(d.text)}
     result = {"steps": steps, "provenance": provenance(command_line(), model)}
-    page = lambda origin: pages.write_history(steps, origin)  # noqa: E731
-    conclude(
-        result, (Section(table=describe.tabulate_history(steps)),), page=page, title=f"{d.path.name}: history"
-    )
+    said = (Section(table=describe.tabulate_history(steps)),)
+
+    def page() -> str:
+        return pages.write_history(steps, api.Source(command_line(), title=f"{d.path.name}: history"))
+
+    conclude(result, said, page=page)
 
 
 @click.command(cls=Command)
@@ -204,12 +204,14 @@ def info(flight: Path, mapping: Path | None) -> None:
     found = describe_flight(flight, how)
     said = describe_other.describe_flight_file(found)
 
-    def page(origin: Origin) -> str:
+    def page() -> str:
         usable = not any(r["refused"] for r in found["records"])
         records = io.read_flights(flight, PAPER_G, mapping=how) if usable else []
-        return pages.write_info(said, records, replace(origin, sources=[(found["path"], found["sha256"])]))
+        read = [(found["path"], found["path"], found["sha256"])]
+        source = api.Source(command_line(), files=read, title=flight.name)
+        return pages.write_info(said, records, source)
 
-    conclude(found, said, page=page, title=flight.name)
+    conclude(found, said, page=page)
 
 
 @click.command(cls=Command)

@@ -37,10 +37,8 @@ if TYPE_CHECKING:
     from ragg_runtime import api
     from ragg_runtime.api import Loaded, Source
     from ragg_runtime.io import Flight
-    from ragg_runtime.report import pages
-    from ragg_runtime.report.pages import Origin
 else:
-    api, pages = map(Later, ("api", "report.pages"))
+    api = Later("api")
 
 STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 """Names of stdout; where JSON is asked for there, it is all that is written there."""
@@ -193,8 +191,7 @@ def conclude(
     result: Mapping[str, Any],
     sections: Sequence[Section],
     source: Source | None = None,
-    page: Callable[[Origin], str] | None = None,
-    title: str | None = None,
+    page: Callable[[], str] | None = None,
 ) -> None:
     """Write the report and the JSON where they are asked for, and the result to stdout.
 
@@ -207,23 +204,19 @@ def conclude(
     source
         What it was made from; notes on its flights follow the result.
     page
-        Makes the report, which has this ``title``.
+        Makes the report.
     """
     wanted = find_wanted()
     if wanted.report_file is not None and page is not None:
         progress.remark("writing the report")
-        if source is None:
-            origin = pages.Origin(title or "", command_line(), ())
-        else:
-            origin = pages.Origin.of(source, title)
         if wanted.report_file in STDOUT:
-            click.echo(page(origin), nl=False)
+            click.echo(page(), nl=False)
         else:
-            write_text(Path(wanted.report_file), page(origin))
+            write_text(Path(wanted.report_file), page())
         click.echo(one_line(f"report: {wanted.report_file}"), err=True)
     if wanted.json_file is not None:
-        whole = {**result, **({} if source is None else source.as_json())}
-        whole.setdefault("provenance", provenance(command_line()))
+        whole = {"provenance": provenance(command_line())} | dict(result)
+        whole |= {} if source is None else source.as_json()
         text = json.dumps(whole, indent=1, allow_nan=False)
         if wanted.json_file in STDOUT:
             click.echo(text)

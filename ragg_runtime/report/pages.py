@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import html
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -36,28 +36,7 @@ from ragg_runtime.wording.sections import (
     make_environment,
     render_html,
 )
-
-if TYPE_CHECKING:
-    from ragg_runtime.workspace import Source
-
-
-@dataclass(frozen=True)
-class Origin:
-    """Where a report comes from: command line, (name, sha256) of every file read, notes on the records, digest of the model."""
-
-    title: str
-    command: str
-    sources: Sequence[tuple[str, str]]
-    notes: Sequence[str] = ()
-    digest: str = ""
-
-    @staticmethod
-    def of(source: Source, title: str | None = None) -> Origin:
-        """Of a result; the title names model and flights unless given."""
-        usual = f"{source.m.name} and {', '.join(x.name for x in source.flights)}"
-        return Origin(
-            title or usual, source.command, source.inputs, tuple(source.notes), source.m.model.digest
-        )
+from ragg_runtime.workspace import Source
 
 
 def _find_renderer() -> Callable[[Plot], str]:
@@ -73,35 +52,30 @@ def _find_renderer() -> Callable[[Plot], str]:
     return draw_plot
 
 
-def render_page(
-    kind: str, sections: Sequence[Section], origin: Origin, facts: Sequence[tuple[str, str]] = ()
-) -> str:
+def render_page(kind: str, sections: Sequence[Section], source: Source, f: Fitted | None = None) -> str:
     """A whole HTML document of sections, the first of which is the verdict.
 
-    Parameters
-    ----------
-    kind
-        What the report is about, in two or three words.
-    facts
-        (name, value) of what was recorded and fitted, for the foot of the page.
+    ``kind``: what the report is about, in two or three words; ``f``: a fit, whose facts are at the foot of the page.
     """
-    if origin.notes:
-        done = Section(
-            title="What was done to the record", sentences=tuple(origin.notes), detail=len(origin.notes) > 3
-        )
-        sections = [*sections, done]
+    if notes := tuple(source.notes):
+        sections = [*sections, Section("What was done to the record", notes, detail=len(notes) > 3)]
     first, *others = sections
     draw = _find_renderer()
     used = ", ".join(f"{n} {v}" for n, v in versions().items() if v != MISSING)
+    model = f.model if f is not None else source.m and source.m.model
     page = make_environment("ragg_runtime.report", html=True).get_template("page.html.j2")
     return numbers.clean(
         page.render(
             kind=kind,
-            origin=origin,
+            source=source,
             style=_read_style(),
             first=render_html([first], draw),
             others=render_html(others, draw),
-            facts=[*facts, ("derived model", origin.digest), ("versions", used)],
+            facts=[
+                *(panels.describe_record(f) if f is not None else ()),
+                ("derived model", model and model.digest),
+                ("versions", used),
+            ],
         )
     )
 
@@ -113,11 +87,6 @@ def _read_style() -> str:
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 Json = Mapping[str, Any]
-
-
-def _render(kind: str, sections: Sequence[Section], origin: Origin, f: Fitted) -> str:
-    """The page of what comes from a fit."""
-    return render_page(kind, sections, replace(origin, digest=f.model.digest), panels.describe_record(f))
 
 
 def _with_plots(s: Section, *plots: Plot | None) -> Section:
@@ -133,7 +102,7 @@ def _figure(title: str, *plots: Plot | None, detail: bool = False) -> list[Secti
 # --- the loop ------------------------------------------------------------------------------------------
 
 
-def write_comparison(c: Comparison, origin: Origin, frozen: Held | None = None) -> str:
+def write_comparison(c: Comparison, source: Source, frozen: Held | None = None) -> str:
     """The report of ``compare``; ``frozen``: how a saved calibration holds, where it is that which is compared."""
     f, names = c.fitted, [o.name for o in c.fitted.observations]
     if frozen is None:
@@ -149,7 +118,7 @@ def write_comparison(c: Comparison, origin: Origin, frozen: Held | None = None) 
         *_ask_whiteness(f, c.residual),
         *describe_parameters(f),
     ]
-    return _render("Model against flight", sections, origin, f)
+    return render_page("Model against flight", sections, source, f)
 
 
 def _ask_whiteness(f: Fitted, residual: Sequence[Array]) -> list[Section]:
@@ -175,7 +144,7 @@ def _with_failures(sections: Sequence[Section], c: Comparison) -> list[Section]:
     return [*sections, *_figure("Residual by harmonic of the spin", harmonics)]
 
 
-def write_diagnosis(d: Diagnosis, origin: Origin) -> str:
+def write_diagnosis(d: Diagnosis, source: Source) -> str:
     """The report of ``diagnose``: verdict, one figure, where the model fails, the findings; everything else is folded."""
     f, said = d.outcome.target, describe.describe_diagnosis(d.as_json())
     lines = panels.pair_lines(d.residual, d.residual_after if d.found else None)
@@ -198,14 +167,14 @@ def write_diagnosis(d: Diagnosis, origin: Origin) -> str:
         *_figure("Demodulated channels", panels.plot_channels(f, lines), detail=True),
         *(describe_parameters(f) if d.found else ()),
     ]
-    return _render("What is missing", sections, origin, d.fitted)
+    return render_page("What is missing", sections, source, d.fitted)
 
 
 def write_addition(
     history: Sequence[Json],
     before: Comparison,
     after: Comparison,
-    origin: Origin,
+    source: Source,
     diagnosis: Diagnosis | None = None,
 ) -> str:
     """The report of a step: the model without and with an effect, each calibrated on the flights; the step is the last of ``history``."""
@@ -233,36 +202,36 @@ def write_addition(
     if diagnosis is not None:
         said = describe.describe_diagnosis(diagnosis.as_json())
         sections += [replace(s, detail=True) for s in said if s.title == "Evidence"]
-    return _render("A step of the model", sections, origin, f)
+    return render_page("A step of the model", sections, source, f)
 
 
-def write_history(steps: Sequence[Json], origin: Origin) -> str:
+def write_history(steps: Sequence[Json], source: Source) -> str:
     """The report of ``history``."""
     first = Section(sentences=(f"{count(len(steps), 'step')}.",))
     table = Section(title="Steps", table=describe.tabulate_history(steps))
     drawn = panels.plot_history(steps, float("nan"))
-    return render_page("History", [_with_plots(first, drawn), table], origin)
+    return render_page("History", [_with_plots(first, drawn), table], source)
 
 
 # --- what comes after, and flights ---------------------------------------------------------------------
 
 
-def write_calibration(said: Sequence[Section], f: Fitted, origin: Origin) -> str:
+def write_calibration(said: Sequence[Section], f: Fitted, source: Source) -> str:
     """The report of ``calibrate``: ``said`` and the parameters of the fit ``f``."""
     lines = panels.pair_lines(f.residuals(), None)
     drawn = panels.plot_blocks(f, lines, envelope=True), panels.plot_spectrum(f, lines)
     sections = [*said, *_figure("The residual", *drawn), *describe_parameters(f, values=False)]
-    return _render("Calibration", sections, origin, f)
+    return render_page("Calibration", sections, source, f)
 
 
-def write_compensation(said: Sequence[Section], made: Sequence[Mapping[str, Array]], origin: Origin) -> str:
+def write_compensation(said: Sequence[Section], made: Sequence[Mapping[str, Array]], source: Source) -> str:
     """The report of ``compensate``: ``said`` and the compensated channels of every flight."""
     plot = panels.plot_compensated(made)
-    return render_page("Compensation", [*said, *_figure("Channels", plot)], origin)
+    return render_page("Compensation", [*said, *_figure("Channels", plot)], source)
 
 
 def write_info(
-    said: Sequence[Section], flights: Sequence[Flight], origin: Origin, kind: str = "A flight"
+    said: Sequence[Section], flights: Sequence[Flight], source: Source, kind: str = "A flight"
 ) -> str:
     """The report of ``info``, or of another ``kind``: ``said``, and every column of the flights over time."""
     sections = list(said)
@@ -271,7 +240,7 @@ def write_info(
         caption = "Every column over time, in SI."
         plot = Curves(f"columns{n}", caption, axes, "time, s", height=1.6)
         sections += _figure(f"Columns of {x.name}", plot)
-    return render_page(kind, sections, origin)
+    return render_page(kind, sections, source)
 
 
 def _draw_columns(x: Flight, step: int) -> Iterator[Axes]:
@@ -283,13 +252,13 @@ def _draw_columns(x: Flight, step: int) -> Iterator[Axes]:
 # --- many flights --------------------------------------------------------------------------------------
 
 
-def write_survey(s: Survey, origin: Origin, model_dir: Path | str = "MODEL_DIR") -> str:
+def write_survey(s: Survey, source: Source, model_dir: Path | str = "MODEL_DIR") -> str:
     """The report of ``survey``; ``model_dir`` is named in the commands that come next."""
     said = s.sections(model_dir)
     trends = [_plot_trend(t, n) for n, t in enumerate(find_trends(s.done)[:6])]
     first = _with_plots(said[0], _plot_errors(s) if s.done else None)
     return render_page(
-        "Survey of flights", [first, *said[1:], *_figure("The least constant parameters", *trends)], origin
+        "Survey of flights", [first, *said[1:], *_figure("The least constant parameters", *trends)], source
     )
 
 

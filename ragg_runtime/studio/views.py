@@ -27,7 +27,6 @@ from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
 from ragg_runtime.io.record import WIDEST_SPIKE, left_out
 from ragg_runtime.report import pages, panels
-from ragg_runtime.report.pages import Origin
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.studio.session import Branches, State
 from ragg_runtime.wording import describe, describe_other, numbers
@@ -415,15 +414,11 @@ def _make_source(s: State, command: str) -> api.Source:
     return api.Source(_find_command(s, command), s.model, s.fitted)
 
 
-def _make_origin(s: State, command: str) -> Origin:
-    return Origin.of(_make_source(s, command))
-
-
 def _write_steps(s: State) -> str:
     before, after = s.require("previous"), s.require("compared")
     history = s.model.directory.history
     steps = [history[n].as_json() for n in Branches(history).path]
-    return pages.write_addition(steps, before, after, _make_origin(s, "history"), s.diagnosed)
+    return pages.write_addition(steps, before, after, _make_source(s, "history"), s.diagnosed)
 
 
 def _write_compensated(s: State, name: str) -> bytes:
@@ -448,8 +443,8 @@ def _write_json(s: State, name: str, command: str) -> str:
 
 
 FILES: Mapping[str, tuple[str, Callable[[State], str | bytes]]] = {
-    "compare.html": ("text/html", lambda s: pages.write_comparison(s.require("compared"), _make_origin(s, "compare"))),
-    "diagnosis.html": ("text/html", lambda s: pages.write_diagnosis(s.require("diagnosed"), _make_origin(s, "diagnose"))),
+    "compare.html": ("text/html", lambda s: pages.write_comparison(s.require("compared"), _make_source(s, "compare"))),
+    "diagnosis.html": ("text/html", lambda s: pages.write_diagnosis(s.require("diagnosed"), _make_source(s, "diagnose"))),
     "steps.html": ("text/html", _write_steps),
     "compare.json": ("application/json", lambda s: _write_json(s, "compared", "compare")),
     "diagnosis.json": ("application/json", lambda s: _write_json(s, "diagnosed", "diagnose")),

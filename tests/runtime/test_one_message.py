@@ -16,9 +16,10 @@ from ragg_runtime.base.errors import EXTRAS, UserError, missing_package
 from ragg_runtime.cli.main import main
 from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.model import chain as compiler
-from ragg_runtime.report.pages import Origin, render_page
+from ragg_runtime.report.pages import render_page
 from ragg_runtime.simulate import simulate_flight
 from ragg_runtime.wording.sections import Bar, Bars, Section
+from ragg_runtime.workspace import Source
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="such names and streams")
 
@@ -54,7 +55,7 @@ def test_a_page_without_matplotlib_says_so_where_a_figure_would_be(monkeypatch: 
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     figure = Bars("b", "label", "caption", (Bar("x", 1.0),), "axis")
     page = render_page(
-        "kind", [Section("verdict"), Section("more", plots=(figure,))], Origin("t", "ragg", ())
+        "kind", [Section("verdict"), Section("more", plots=(figure,))], Source("ragg", title="t")
     )
     assert "pip install &#x27;ragg[plots]&#x27;" in page
     assert "<svg" not in page

@@ -26,11 +26,12 @@ from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.instruments import trimmed
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.report import panels, plots
-from ragg_runtime.report.pages import Origin, write_addition, write_comparison, write_diagnosis
+from ragg_runtime.report.pages import write_addition, write_comparison, write_diagnosis
 from ragg_runtime.report.plots import draw_plot
 from ragg_runtime.signals.demodulators import demodulate
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import Bar, Bars, render_text
+from ragg_runtime.workspace import Source
 from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
 
@@ -65,10 +66,10 @@ def cubic() -> Case:
     return Case(compare.compare(load.load_packaged(), known, [made]), diagnosed(known, made), made)
 
 
-ORIGIN = Origin(
-    "gradiometer & leg",
+ORIGIN = Source(
     "ragg compare <dir> leg.csv",
-    [("model.toml", "ab" * 32), ('<img src="http://evil.example/x">', "cd" * 32)],
+    files=[("model.toml", "", "ab" * 32), ('<img src="http://evil.example/x">', "", "cd" * 32)],
+    title="gradiometer & leg",
 )
 
 
