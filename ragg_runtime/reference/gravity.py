@@ -56,12 +56,7 @@ class Gradient:
         """Gamma, (6, N) s^-2."""
         if callable(self.tensor):
             return self.tensor(time)
-        values = np.asarray(self.tensor, dtype=np.float64)
-        if values.shape != (6,):
-            raise UserError(
-                "a constant gradient has six components", found=f"shape {values.shape}", expected=COMPONENTS
-            )
-        return np.repeat(values[:, None], time.size, axis=1)
+        return np.repeat(np.reshape(self.tensor, (6, 1)), time.size, axis=1)
 
     def difference(self, time: Array, r: Array) -> Array:
         """Gamma r, (3, N) m/s^2."""

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.fft import irfft, next_fast_len, rfftfreq
 
-from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import paper
 
@@ -73,23 +72,12 @@ def perturbed(instrument: Instrument, rng: np.random.Generator, amount: float = 
 class Noise:
     """Red and white noise of one accelerometer: Phi(f) = alpha f^-b + omega_T (Eq. 53).
 
-    ``alpha``: one-sided density of the red part at 1 Hz, ``omega_T`` of the white one, (m/s^2)^2/Hz; 0 <= b < 4, else
-    UserError.
+    ``alpha``: one-sided density of the red part at 1 Hz, ``omega_T`` of the white one, (m/s^2)^2/Hz; 0 <= b < 4.
     """
 
     alpha: float = 0.0
     b: float = 0.0
     omega_T: float = 0.0
-
-    def __post_init__(self) -> None:
-        for name in ("alpha", "omega_T"):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value >= 0):
-                raise UserError(f"the noise density {name} must not be negative", found=value)
-        if not 0 <= self.b < 4:
-            raise UserError(
-                "the exponent b of the noise density is out of range", found=self.b, expected="0 <= b < 4"
-            )
 
     def psd(self, frequency: ArrayLike) -> Array:
         """One-sided density at frequencies > 0 Hz, (m/s^2)^2/Hz."""

@@ -78,14 +78,6 @@ class Sinusoids:
     frequency: Sequence[float] | Array = ()
     phase: Sequence[float] | Array = ()
 
-    def __post_init__(self) -> None:
-        sizes = {len(self.amplitude), len(self.frequency), len(self.phase)}
-        if len(sizes) != 1:
-            raise UserError(
-                "a sum of sinusoids needs one amplitude, one frequency and one phase each",
-                found=f"{len(self.amplitude)}, {len(self.frequency)} and {len(self.phase)} of them",
-            )
-
     def _sum(self, time: Array, shift: float, derivative: bool) -> Array:
         A = np.asarray(self.amplitude, dtype=np.float64)
         f = np.asarray(self.frequency, dtype=np.float64)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfftfreq
 
-from ragg_runtime.base.errors import UserError, did_you_mean
+from ragg_runtime.base.errors import check_choice
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.geometry import Rotations
@@ -90,12 +90,7 @@ def turbulence(
     ``shape``: one of ``SHAPES``. ``bursts``: standard deviation of the logarithm of a slowly varying intensity; 0 is
     stationary.
     """
-    if shape not in SHAPES:
-        raise UserError(
-            f"unknown shape of turbulence {shape!r}",
-            expected=", ".join(SHAPES),
-            remedy=did_you_mean(shape, SHAPES),
-        )
+    check_choice(shape, tuple(SHAPES), "shape", "unknown shape of turbulence")
     rate = _NODES_PER_CYCLE * CUTOFF
     nodes = -_PAD + np.arange(int((duration + 2 * _PAD) * rate) + 2) / rate
     record = _gaussian(rng, nodes.size, rate, lambda f: SHAPES[shape](f) / (1 + (f / CUTOFF) ** 16))
@@ -217,8 +212,6 @@ def scenario(
     the true parameters, in a test sheet's usual errors. ``noise_density``: white, of the demodulated cross channel,
     s^-2/sqrt(Hz). ``red_corner``: Hz, below which 1/f noise exceeds the white. ``gradient_rms``: s^-2.
     """
-    if trim not in ("matched", "table-v"):
-        raise UserError("unknown trim", found=trim, expected="matched or table-v")
     sheet = trimmed() if trim == "matched" else table_v()
     return Scenario(
         sheet=sheet,

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError, check_choice, check_keys
+from ragg_runtime.base.errors import UserError, check_keys
 from ragg_runtime.instrument.layout import PAPER, Output
 from ragg_runtime.reference.chain import Auxiliary, Chain
 from ragg_runtime.reference.effects import EffectValues, Injected, channels_needed, resolve
@@ -173,7 +173,6 @@ def simulate(
     time, injected = instants(duration, rate, start), resolve(effects, instrument.layout.size)
     given, discs = turning or {}, instrument.layout.discs
     check_keys(given, [d.name for d in discs], "turning")
-    check_choice(rotations, get_args(Rotations), "rotations")
     world = (
         plausible(np.random.default_rng([seed, _AUXILIARY_STREAM])) if auxiliaries is None else auxiliaries
     )

@@ -55,8 +55,6 @@ def test_equal_seeds_equal_flights() -> None:
 def test_trim_decides_how_much_acceleration_gets_through() -> None:
     matched, uneven = (scenario(2, duration=120, trim=t).simulate().G_out for t in ("matched", "table-v"))
     assert np.std(uneven) > 100 * np.std(matched)
-    with pytest.raises(UserError, match="trim"):
-        scenario(2, trim="loose")
 
 
 def test_noise_is_the_one_asked_for() -> None:
@@ -151,8 +149,6 @@ def test_a_record_too_short_says_so() -> None:
 def test_a_bad_record_is_refused(time: list[float], samples: list[float]) -> None:
     with pytest.raises(UserError):
         RecordedSignal(np.array(time, dtype=float), np.array(samples, dtype=float))
-    with pytest.raises(UserError):
-        Sinusoids(0.0, [1.0], [0.1, 0.2], [0.0])
 
 
 SIXTEEN = 16.0
@@ -185,12 +181,6 @@ def test_noise_of_the_demodulated_channels() -> None:
         assert np.sqrt(np.mean(power[(f > 0.01) & (f < 0.14)])) == pytest.approx(expected, rel=0.05)
     V = flight.voltages - flight.voltages_noise_free
     assert np.max(np.abs(np.corrcoef(V) - np.eye(4))) < 0.01
-
-
-@pytest.mark.parametrize(("alpha", "b", "omega_T"), [(-1, 0, 0), (0, 5, 0), (0, -1, 0), (0, 0, np.nan)])
-def test_bad_densities_are_refused(alpha: float, b: float, omega_T: float) -> None:
-    with pytest.raises(UserError):
-        Noise(alpha, b, omega_T)
 
 
 def test_the_level_of_a_noise_may_follow_the_length_of_a_vector() -> None:

@@ -67,8 +67,6 @@ def lean(effects: Injected, effect: str, name: str) -> Array | None:
 
 def spin_share(kinematics: Kinematics, effects: Injected) -> float:
     """Share of the disc's own rotation that the accelerometers sense: all of it in full kinematics."""
-    if kinematics not in ("platform", "full"):
-        raise UserError("unknown kinematics", found=kinematics, expected="platform or full")
     given = effects.get("disc-spin")
     if kinematics == "full" and given is not None:
         raise UserError(
