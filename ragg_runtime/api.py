@@ -69,7 +69,6 @@ from ragg_runtime.workspace import (
     new,
     now,
     read_flights,
-    read_for_compensation,
 )
 
 __all__ = [
@@ -77,7 +76,7 @@ __all__ = [
     "calibrate", "calibration_notes", "change", "compare", "compare_frozen", "compensate",
     "contents", "diagnose", "effects", "errors_of", "example", "export", "keep_mapping", "load",
     "mapping_of", "mapping_text", "new", "parse_limits", "read_flights",
-    "read_for_compensation", "remove", "saved_calibration", "source_of_survey", "survey", "validate", "write_export",
+    "remove", "saved_calibration", "source_of_survey", "survey", "validate", "write_export",
 ]  # fmt: skip
 
 
@@ -490,7 +489,7 @@ def compensate(
     -------
         ``inline`` and ``cross`` (Eo) with their standard uncertainties and ``quality``, for each flight.
     """
-    flights = read_for_compensation(m, flights)
+    flights = read_flights(m, flights, gradient=False)
     if calibration == "online":
         found = _recursive.follow(m, flights, noise=noise, walk=walk, forget=forget)
     else:

@@ -168,7 +168,7 @@ Flights = Flight | Path | str | Any
 
 
 def read_flights(
-    m: Loaded, paths: Flights, mapping: Path | str | None = None, *, leave: frozenset[str] = frozenset()
+    m: Loaded, paths: Flights, mapping: Path | str | None = None, *, gradient: bool = True
 ) -> list[Flight]:
     """Read and screen flights in the units of this model (its g0); every flight line of a file is a flight.
 
@@ -181,8 +181,8 @@ def read_flights(
         or a list of these. Flights that were already read are returned unchanged.
     mapping
         Description of the columns; default: the mapping kept with the model.
-    leave
-        Columns that are not read.
+    gradient
+        Whether recorded gravity gradients are read: they must not enter what is compensated.
 
     Returns
     -------
@@ -205,17 +205,12 @@ def read_flights(
             m.instrument.g0,
             accelerometers=m.instrument.layout,
             mapping=how,
-            leave=leave,
+            leave=frozenset() if gradient else frozenset(GRADIENT),
             name="flight" if len(given) == 1 else f"flight {n}",
         )
         found += [screen(m.model, m.instrument, x) for x in read]
     distinct(found)
     return found
-
-
-def read_for_compensation(m: Loaded, paths: Flights, mapping: Path | str | None = None) -> list[Flight]:
-    """Read and examine flights without their gradients: they must not enter what is compensated."""
-    return read_flights(m, paths, mapping, leave=frozenset(GRADIENT))
 
 
 def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:

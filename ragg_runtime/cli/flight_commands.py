@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from ragg_runtime.base import progress
-from ragg_runtime.base.errors import UserError, count, printable
+from ragg_runtime.base.errors import UserError, printable
 from ragg_runtime.base.files import write_bytes, write_text
 from ragg_runtime.cli.shared import (
     PLACE,
@@ -286,8 +285,7 @@ def compensate(
     m = load(model_dir)
     kept = calibration == "frozen" or (calibration == "online" and m.directory.calibration is not None)
     odd = _calibration_notes(m) if kept else []
-    progress.remark(f"reading {count(len(flights), 'flight')}")
-    records = api.read_for_compensation(m, flights, mapping)
+    records = read(m, flights, mapping, gradient=False)
     with working("compensating", "compare", records):
         c = api.compensate(
             m, records, calibration, demodulator, out, noise=noise, walk=walk, forget=forget or float("inf")

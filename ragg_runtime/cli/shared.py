@@ -168,10 +168,10 @@ def load(model_dir: Path) -> Loaded:
     return m
 
 
-def read(m: Loaded, flights: Sequence[Path], mapping: Path | None) -> list[Flight]:
+def read(m: Loaded, flights: Sequence[Path], mapping: Path | None, *, gradient: bool = True) -> list[Flight]:
     """The flights, read and examined."""
     progress.remark(f"reading {count(len(flights), 'flight')}")
-    return api.read_flights(m, flights, mapping)
+    return api.read_flights(m, flights, mapping, gradient=gradient)
 
 
 @contextlib.contextmanager

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from ragg_runtime.base.errors import UserError, at, check_choice, check_keys, check_table
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.layout import PAPER, Layout, scale
-from ragg_runtime.instrument.units import RawQuantity, Units, check_finite, read_si, units
+from ragg_runtime.instrument.units import RawQuantity, Units, read_si, units
 
 Vector = NDArray[np.float64]
 
@@ -317,7 +317,6 @@ def _check_physical(i: Instrument) -> None:
             )
     for name, vector in k.items():
         where = at(i.path, f"[accelerometers] {name}")
-        check_finite(vector, where)
         if PARAMETER[name].required and np.any(vector == 0):
             raise UserError(f"{name} must not be zero", where=where, found=vector.tolist())
     R = i.radii + k["dR"]

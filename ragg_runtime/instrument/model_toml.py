@@ -178,9 +178,11 @@ def _effect(entry: object, where: str, known: Units, count: int) -> EffectSettin
         }
     fixed = {name for name, raw in values.items() if _is_fixed(raw, f"{where}: {name}")}
     quantities = {
-        name: known.quantity(_without(raw, "fixed"), f"{where}: {name}", count=count)
+        name: read_quantity(_without(raw, "fixed"), f"{where}: {name}", count=count)
         for name, raw in values.items()
     }
+    for name, q in quantities.items():
+        known.parse(q.unit, f"{where}: {name}")
     return EffectSetting(effect_id, MappingProxyType(quantities), expression, frozenset(fixed))
 
 

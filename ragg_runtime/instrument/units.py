@@ -119,9 +119,9 @@ class Units:
             raise UserError("the unit is too large or too small", where=where, found=repr(unit)) from None
         return result / (2 * math.pi) if turns else result
 
-    def from_si(self, value: Value, si_unit: str, unit: str, where: str | None = None) -> Value:
+    def from_si(self, value: Value, si_unit: str, unit: str) -> Value:
         """``value`` in ``si_unit``, converted to ``unit``; the inverse of :meth:`to_si`."""
-        target, source, turns = self._prepare(unit, si_unit, where)
+        target, source, turns = self._prepare(unit, si_unit, None)
         result: Value = self._registry.convert(value * (2 * math.pi) if turns else value, source, target)
         return result
 
@@ -154,7 +154,7 @@ class Units:
         base = self._registry.get_base_units(self.parse(unit, where))[1]
         return f"{base:~C}" or "1"
 
-    def uses_g(self, unit: str, where: str | None = None) -> bool:
+    def uses_g(self, unit: str, where: str) -> bool:
         """Whether ``unit`` is made with g."""
         return self._counts(self.parse(unit, where), frozenset(("standard_g",)))
 
@@ -170,12 +170,6 @@ class Units:
                 if self.parse(reading).dimensionality == wanted:
                     return reading
         return None
-
-    def quantity(self, raw: object, where: str | None = None, *, count: int = 4) -> RawQuantity:
-        """Read ``"0.1 m"`` or ``{ value = 0.1, unit = "m" }``, or with a list of ``count`` values; UserError for anything else."""
-        quantity = read_quantity(raw, where, count=count)
-        self.parse(quantity.unit, where)
-        return quantity
 
     def _counts(self, unit: Any, names: frozenset[str]) -> bool:
         """Whether one of these units, with any prefix, is a factor of a unit."""
@@ -193,8 +187,8 @@ _AMOUNT = re.compile(r"\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*(\S.*)?")
 _COMMA = re.compile(r"^(\s*[+-]?(?:0+,\d+|\d+,(?!\d{3}(?!\d))\d+))")
 
 
-def read_quantity(raw: object, where: str | None = None, *, count: int = 4) -> RawQuantity:
-    """The number or numbers and the unit, as written; see :meth:`Units.quantity`."""
+def read_quantity(raw: object, where: str, *, count: int) -> RawQuantity:
+    """Read ``"0.1 m"`` or ``{ value = 0.1, unit = "m" }``, or with a list of ``count`` values; UserError for anything else."""
     value: object = None
     unit: object = None
     if isinstance(raw, str):
@@ -239,14 +233,10 @@ def _number(value: object, where: str | None) -> float:
     return float(value)
 
 
-def read_si(quantity: RawQuantity, si_unit: str, g0: float, where: str | None = None) -> NDArray[np.float64]:
+def read_si(quantity: RawQuantity, si_unit: str, g0: float, where: str) -> NDArray[np.float64]:
     """The numbers of a quantity, (1,) or (n,), in ``si_unit``; UserError if one is not finite there."""
-    value = np.atleast_1d(np.asarray(quantity.value, dtype=np.float64))
-    return check_finite(np.asarray(units(g0).to_si(value, quantity.unit, si_unit, where)), where)
-
-
-def check_finite(value: NDArray[np.float64], where: str | None) -> NDArray[np.float64]:
-    """``value`` (n,); UserError if one is not finite."""
+    given = np.atleast_1d(np.asarray(quantity.value, dtype=np.float64))
+    value = np.asarray(units(g0).to_si(given, quantity.unit, si_unit, where))
     if not np.all(np.isfinite(value)):
         raise UserError("the value is not finite in SI", where=where, found=value, expected="finite numbers")
     return value

@@ -206,7 +206,7 @@ def test_motion_beyond_what_the_calibration_knows_is_flagged(tmp_path: Path) -> 
     model, (one, two) = new_model(tmp_path), files(tmp_path, rows=BRIEF)
     run("calibrate", model, one, "--save")
     m = api.load(model)
-    x = api.read_for_compensation(m, [two])[0]
+    x = api.read_flights(m, [two], gradient=False)[0]
     warm = dict(x.channels) | {"temperature": x.channels["temperature"] + 50.0}
     c = api.compensate(m, [dataclasses.replace(x, channels=warm)], "frozen")
     assert np.all(c.series[0]["quality"] & int(Quality.AUXILIARY))

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.units import RawQuantity, Units, units
+from ragg_runtime.instrument.units import RawQuantity, Units, read_quantity, units
 
 G0 = st.floats(0.1, 100.0)
 FINITE = st.floats(-1e12, 1e12, allow_nan=False)
@@ -120,7 +120,7 @@ def test_any_text_is_a_unit_or_a_user_error(text: str) -> None:
     ],
 )
 def test_quantities(raw: object, expected: RawQuantity) -> None:
-    assert units(9.8).quantity(raw) == expected
+    assert read_quantity(raw, "", count=4) == expected
 
 
 @pytest.mark.parametrize(
@@ -145,7 +145,7 @@ def test_quantities(raw: object, expected: RawQuantity) -> None:
 )
 def test_what_is_no_quantity(raw: object, what: str) -> None:
     with pytest.raises(UserError, match=what) as caught:
-        units(9.8).quantity(raw, "f.toml: here")
+        units(9.8).parse(read_quantity(raw, "f.toml: here", count=4).unit, "f.toml: here")
     assert caught.value.where == "f.toml: here"
     assert caught.value.found is not None
 
