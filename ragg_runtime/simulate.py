@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,13 +21,10 @@ from ragg_runtime.model.record import find_start
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues, channels_needed, resolve
 from ragg_runtime.reference.geometry import Rotations
-from ragg_runtime.reference.instruments import eotvos_noise, perturbed
 from ragg_runtime.reference.motion import RecordedSignal, Turning
-from ragg_runtime.reference.scenario import draw_gradient, draw_motion
-from ragg_runtime.reference.simulate import further, plausible
-
-if TYPE_CHECKING:
-    from ragg_runtime.api import Loaded
+from ragg_runtime.reference.scenario import draw_gradient, draw_motion, perturbed
+from ragg_runtime.reference.simulate import eotvos_noise, further, plausible
+from ragg_runtime.workspace import Loaded
 
 Array = NDArray[np.float64]
 

@@ -17,10 +17,17 @@ from ragg_runtime.instrument.instrument import DISC_UNITS, PARAMETERS, Instrumen
 from ragg_runtime.instrument.layout import paper
 from ragg_runtime.io import read_flight
 from ragg_runtime.reference.gravity import Gradient
-from ragg_runtime.reference.instruments import eotvos_noise, perturbed, table_v, trimmed
 from ragg_runtime.reference.motion import MotionSignals, Signal, recorded_motion
-from ragg_runtime.reference.scenario import SHAPES, Scenario, draw_gradient, draw_motion
-from ragg_runtime.reference.simulate import further, plausible
+from ragg_runtime.reference.scenario import (
+    SHAPES,
+    Scenario,
+    draw_gradient,
+    draw_motion,
+    perturbed,
+    table_v,
+    trimmed,
+)
+from ragg_runtime.reference.simulate import eotvos_noise, further, plausible
 
 Array = NDArray[np.float64]
 

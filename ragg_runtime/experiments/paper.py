@@ -1,7 +1,7 @@
 """What Section III prints: the set-ups of Tables VI and VII, and the numbers to compare with, beside ours as Markdown and JSON.
 
 M. Yu and T. Cai, *Mathematic Model And Error Analysis of Moving-base Rotating Accelerometer Gravity
-Gradiometer*. The instrument of Table V is ``ragg_runtime.reference.instruments.table_v``.
+Gradiometer*. The instrument of Table V is ``ragg_runtime.reference.scenario.table_v``.
 """
 
 from __future__ import annotations

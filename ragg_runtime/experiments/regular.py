@@ -31,7 +31,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.reference import MotionSignals, Simulation, Sinusoids, simulate, still
 from ragg_runtime.reference.gravity import PointMass
-from ragg_runtime.reference.instruments import perfect, table_v
+from ragg_runtime.reference.scenario import perfect, table_v
 
 Array = NDArray[np.float64]
 

@@ -14,7 +14,7 @@ from ragg_runtime.experiments.paper import ARCSEC
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.reference import Simulation, disc_angle
-from ragg_runtime.reference.instruments import table_v
+from ragg_runtime.reference.scenario import table_v
 from ragg_runtime.signals.demodulators import demodulate
 
 Array = NDArray[np.float64]

@@ -25,7 +25,7 @@ from ragg_runtime.experiments.runs import (
 )
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.reference import MotionSignals, Simulation, simulate
-from ragg_runtime.reference.instruments import table_v
+from ragg_runtime.reference.scenario import table_v
 
 Array = NDArray[np.float64]
 Values = Mapping[tuple[int, str], Array]

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.reference.effects import Injected, force, geometry, transducer
 from ragg_runtime.reference.geometry import (
     Mount,
@@ -23,9 +24,6 @@ from ragg_runtime.reference.geometry import (
 )
 from ragg_runtime.reference.gravity import Gravity
 from ragg_runtime.reference.motion import MotionSignals, MotionState, Turning
-
-if TYPE_CHECKING:
-    from ragg_runtime.instrument.instrument import Instrument
 
 Array = NDArray[np.float64]
 Triple = tuple[Array, Array, Array]

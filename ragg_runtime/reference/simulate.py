@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+from scipy.fft import irfft, next_fast_len, rfftfreq
 
 from ragg_runtime.base.errors import UserError, check_keys
+from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output
+from ragg_runtime.io import Flight
 from ragg_runtime.reference.chain import Auxiliary, Chain
 from ragg_runtime.reference.effects import EffectValues, Injected, channels_needed, resolve
 from ragg_runtime.reference.effects.geometry import Kinematics, random_angle, spin_share
@@ -19,12 +22,7 @@ from ragg_runtime.reference.effects.sensing import record_motion, record_output
 from ragg_runtime.reference.effects.transducer import REFERENCE_PRESSURE, REFERENCE_TEMPERATURE
 from ragg_runtime.reference.geometry import Rotations
 from ragg_runtime.reference.gravity import COMPONENTS, Gravity
-from ragg_runtime.reference.instruments import Noise
 from ragg_runtime.reference.motion import MotionSignals, Sinusoids, Turning
-
-if TYPE_CHECKING:
-    from ragg_runtime.instrument.instrument import Instrument
-    from ragg_runtime.io import Flight
 
 Array = NDArray[np.float64]
 
@@ -113,8 +111,6 @@ class Simulation:
 
     def flight(self, name: str = "simulated", *, voltages: bool = False) -> Flight:
         """The record as a flight: its outputs, and the voltages if asked for."""
-        from ragg_runtime.io import Flight
-
         outputs = dict(self.outputs)
         if voltages:
             layout = self.instrument.layout
@@ -270,3 +266,51 @@ def _require_channels(effects: Injected, auxiliaries: Mapping[str, Auxiliary]) -
                     found=", ".join(auxiliaries) or "none",
                     remedy="give it as a function of time in auxiliaries",
                 )
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Red and white noise of one accelerometer: Phi(f) = alpha f^-b + omega_T (Eq. 53).
+
+    ``alpha``: one-sided density of the red part at 1 Hz, ``omega_T`` of the white one, (m/s^2)^2/Hz; 0 <= b < 4.
+    """
+
+    alpha: float = 0.0
+    b: float = 0.0
+    omega_T: float = 0.0
+
+    def psd(self, frequency: ArrayLike) -> Array:
+        """One-sided density at frequencies > 0 Hz, (m/s^2)^2/Hz."""
+        f = np.asarray(frequency, dtype=np.float64)
+        return np.asarray(self.alpha * f**-self.b + self.omega_T, dtype=np.float64)
+
+    def sample(self, rng: np.random.Generator, size: int, rate: float) -> Array:
+        """Draw a record, (size,) m/s^2, at ``rate`` Hz.
+
+        The red part is half of a periodic record twice as long; it holds no power below rate/(2 size).
+        """
+        record: Array = np.sqrt(self.omega_T * rate / 2) * rng.standard_normal(size)
+        if self.alpha == 0 or size == 0:
+            return record
+        period = next_fast_len(2 * size, real=True)
+        f = rfftfreq(period, 1 / rate)
+        density = np.zeros(f.size)
+        density[1:] = self.alpha * f[1:] ** -self.b
+        # A one-sided density S is E|X_k|^2 = S rate period / 2 for the unnormalised transform.
+        scale = np.sqrt(density * rate * period / 4)
+        spectrum = scale * (rng.standard_normal(f.size) + 1j * rng.standard_normal(f.size))
+        if period % 2 == 0:
+            # Nyquist has no imaginary part; its real part carries all of the power.
+            spectrum[-1] = np.sqrt(2) * spectrum[-1].real
+        record += irfft(spectrum, period)[:size]
+        return record
+
+
+def eotvos_noise(density: float, radius: float, red_corner: float = 0.0) -> Noise:
+    """White accelerometer noise that gives the demodulated cross channel a ``density`` in s^-2/sqrt(Hz), ``radius`` in
+    m, and below ``red_corner``, Hz, stronger 1/f noise.
+
+    n = sqrt(2) R density, m/s^2/sqrt(Hz). The inline channel, a difference, has twice the cross channel's.
+    """
+    white = 2 * (radius * density) ** 2
+    return Noise(alpha=red_corner * white, b=1.0, omega_T=white)

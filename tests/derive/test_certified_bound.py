@@ -31,7 +31,7 @@ from derive.stages import Kinematics
 from derive.symbols import MOTION, QUARTER_TURNS, SECOND_ORDER, SIGNS, SPIN_ACCELERATION, SPIN_RATE
 from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.model.model import load_packaged
-from ragg_runtime.reference.instruments import table_v
+from ragg_runtime.reference.scenario import table_v
 
 Array = NDArray[np.float64]
 

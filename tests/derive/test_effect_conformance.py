@@ -26,7 +26,7 @@ from ragg_runtime.io.record import SI_UNITS
 from ragg_runtime.reference import CATALOGUE, MotionSignals, Sinusoids, disc_angle, simulate
 from ragg_runtime.reference.geometry import frame_rotation, mount
 from ragg_runtime.reference.gravity import Gradient
-from ragg_runtime.reference.instruments import table_v
+from ragg_runtime.reference.scenario import table_v
 
 Array = NDArray[np.float64]
 Record = tuple[Mapping[str, Array], Array]

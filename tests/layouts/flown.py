@@ -9,8 +9,8 @@ import numpy as np
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.reference import EffectValues, simulate
-from ragg_runtime.reference.instruments import eotvos_noise, perturbed
-from ragg_runtime.reference.scenario import draw_gradient, draw_motion
+from ragg_runtime.reference.scenario import draw_gradient, draw_motion, perturbed
+from ragg_runtime.reference.simulate import eotvos_noise
 from tests.rate import RATE
 
 

@@ -19,7 +19,7 @@ from ragg_runtime.experiments.regular import (
 from ragg_runtime.experiments.runs import Channels, find_error
 from ragg_runtime.experiments.turbulence import repeat_turbulence
 from ragg_runtime.reference.gravity import G
-from ragg_runtime.reference.instruments import table_v
+from ragg_runtime.reference.scenario import table_v
 
 
 @pytest.fixture(scope="module")

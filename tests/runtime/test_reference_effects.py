@@ -17,8 +17,8 @@ from ragg_runtime.reference import CATALOGUE, MotionSignals, Simulation, Sinusoi
 from ragg_runtime.reference.effects import resolve
 from ragg_runtime.reference.effects.force import fourth_order_tensor, third_order_tensor
 from ragg_runtime.reference.gravity import Gradient, PointMass
-from ragg_runtime.reference.instruments import perfect, trimmed
 from ragg_runtime.reference.motion import recorded_motion
+from ragg_runtime.reference.scenario import perfect, trimmed
 
 RATE = 16.0
 GAIN = 1e9 * 1e-2 / 9.8

@@ -13,9 +13,9 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.record import Record
 from ragg_runtime.reference import disc_angle, simulate, still
-from ragg_runtime.reference.instruments import Noise, eotvos_noise, perfect
 from ragg_runtime.reference.motion import RecordedSignal, Signal, Sinusoids, turns
-from ragg_runtime.reference.scenario import SHAPES, scenario, turbulence
+from ragg_runtime.reference.scenario import SHAPES, perfect, scenario, turbulence
+from ragg_runtime.reference.simulate import Noise, eotvos_noise
 from ragg_runtime.signals.demodulators import demodulate
 from ragg_runtime.simulate import simulate_flight
 

@@ -23,8 +23,7 @@ from ragg_runtime.io import Flight
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.effects import EffectValues
-from ragg_runtime.reference.instruments import trimmed
-from ragg_runtime.reference.scenario import scenario
+from ragg_runtime.reference.scenario import scenario, trimmed
 from ragg_runtime.report import panels, plots
 from ragg_runtime.report.pages import write_addition, write_comparison, write_diagnosis
 from ragg_runtime.report.plots import draw_plot

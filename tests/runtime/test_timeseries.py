@@ -27,8 +27,7 @@ from ragg_runtime.model.model import load_packaged, make_vector, scale_factor
 from ragg_runtime.model.record import make_kernel, record
 from ragg_runtime.reference import disc_angle, simulate, still
 from ragg_runtime.reference.gravity import Gradient
-from ragg_runtime.reference.instruments import perfect
-from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.reference.scenario import Scenario, perfect, scenario
 from ragg_runtime.signals.demodulators import demodulate, low_pass
 from ragg_runtime.signals.derivative import WINDOW, differentiate, interpolate_even
 
