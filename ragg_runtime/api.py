@@ -45,6 +45,7 @@ from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.model_toml import add_effect, remove_effect
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
 from ragg_runtime.io import Flight
+from ragg_runtime.io.mapping import list_codes
 from ragg_runtime.model import derive
 from ragg_runtime.model.derive import Catalogue, effects
 from ragg_runtime.model.directory import HistoryStep, replace_model_dir
@@ -514,6 +515,7 @@ def contents(m: Loaded) -> Contents:
     folded = {n: text for n, text in m.model.chain.sources.items() if n.startswith("folded")}
     if not m.instrument.layout.like_paper:  # of a single accelerometer a volt has few digits: then bit by bit
         folded = {}
+    mapped = mapping_of(m, None)
     return Contents(
         name=m.name,
         model=m.model,
@@ -523,6 +525,7 @@ def contents(m: Loaded) -> Contents:
         module=derive.read_chain(m.instrument),
         origin=of,
         saved=saved,
+        null={} if mapped is None else list_codes(mapped),
     )
 
 

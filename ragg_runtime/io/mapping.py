@@ -106,6 +106,12 @@ class Mapped:
         return frozenset(named if self.line is None else {*named, self.line})
 
 
+def list_codes(m: Mapped) -> dict[str, list[float]]:
+    """Column -> the numbers that stand for a missing value in it."""
+    columns: dict[str, Entry | TimeEntry] = {"time": m.time, **m.channels}
+    return {name: [x for x in e.null if isinstance(x, float)] for name, e in columns.items()}
+
+
 def read_mapping(path: Path) -> Mapped:
     """The mapping in a file; UserError if something in it cannot be, or is not answered yet."""
     return parse_mapping(read_text(path), path)

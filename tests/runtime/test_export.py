@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import re
+import shutil
 import subprocess
 import sys
 from functools import cache
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.compensation.export.program import write_values
 from ragg_runtime.compensation.recursive import UPDATE, Online, Tuning
 from ragg_runtime.estimation.observation import Observation, observe
 from ragg_runtime.io import read_flight, write_flight
@@ -215,9 +217,11 @@ def test_a_wrong_header_or_row_is_one_message(base: tuple[Path, Path, Path]) -> 
     for message, text in rows.items():
         done = program(folder, "\n".join(text).encode())
         assert (done.returncode, message in done.stderr.decode()) == (2, True)
-    missing = [*lines[:5], re.sub(",[^,]*,", ",,", lines[5], count=1), *lines[6:]]
+    missing = list(lines)
+    for at, code in ((5, ""), (7, "-9999"), (9, "-999.25"), (11, "1e32"), (13, "NaN")):
+        missing[at] = re.sub(",[^,]*,", f",{code},", lines[at], count=1)
     G = answer(program(folder, ("\ufeff# a note\n\n" + "\n".join(missing)).encode()).stdout)[1]
-    assert np.flatnonzero(np.isnan(G)).tolist() == [4]
+    assert np.flatnonzero(np.isnan(G)).tolist() == [4, 6, 8, 10, 12]
     quoted = '"' + lines[0].replace(",", '";"') + '"'
     done = program(folder, "\n".join([quoted, *(x.replace(",", ";") for x in lines[1:])]).encode())
     assert (done.returncode, done.stdout.count(b"\n")) == (0, len(lines))
@@ -267,6 +271,34 @@ def test_the_document_holds_everything(extended: tuple[Path, Path, Path], tmp_pa
     before = (tmp_path / "j" / "model.json").read_bytes()
     run("export", model, tmp_path / "j", "--json")  # over its own
     assert (tmp_path / "j" / "model.json").read_bytes() == before
+
+
+def test_codes_of_the_mapping_are_missing_values(extended: tuple[Path, Path, Path], tmp_path: Path) -> None:
+    model, _, flight = extended
+    shutil.copytree(model, tmp_path / "m")
+    columns = 'a_x = { column = "A", unit = "m/s^2" }\na_y = { column = "B", unit = "m/s^2", null = 7 }\n'
+    mapping = f'null = [-5, "x"]\n[time]\ncolumn = "t"\nunit = "s"\n[columns]\n{columns}'
+    (tmp_path / "m" / "mapping.toml").write_text(mapping)
+    c = api.contents(api.load(tmp_path / "m"))
+    assert c.null == {"time": [-5.0], "a_x": [-5.0], "a_y": [-5.0, 7.0]}
+    names = re.findall(r'^    \{"(\w+)", ".*", \d\},$', write_values(c, "plain"), re.MULTILINE)
+    codes = [(names[k], x) for k, x in _codes(write_values(c, "plain")) if k >= 0]
+    assert sorted(codes) == sorted((n, x) for n, several in c.null.items() for x in several)
+    run("export", tmp_path / "m", tmp_path / "n", "--numpy")
+    lines = flight.read_text().splitlines()[:100]
+    at = lines[0].split(",").index("a_y [m/s^2]")
+    cells = lines[50].split(",")
+    lines[50] = ",".join([*cells[:at], "7", *cells[at + 1 :]])
+    command = [sys.executable, "-I", "-c", _ALONE, str(tmp_path / "n")]
+    done = subprocess.run(command, input="\n".join(lines), capture_output=True, text=True, check=True)
+    assert np.isnan(answer(done.stdout.encode())[1][49])
+    assert np.isfinite(answer(done.stdout.encode())[1][:20]).all()
+
+
+def _codes(text: str) -> list[tuple[int, float]]:
+    listed = re.search(r"CODE\[CODES\] = \{(.*)\};", text)
+    assert listed is not None
+    return [(int(k), float(x)) for k, x in re.findall(r"\{(-?\d+), ([^}]+)\}", listed[1])]
 
 
 def test_a_folder_with_other_things_is_left_alone(base: tuple[Path, Path, Path], tmp_path: Path) -> None:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -43,12 +43,17 @@ SIZES: Mapping[str, tuple[float, float]] = {
 """Mean and amplitude of the channels of an example, SI."""
 
 
+CODES = (-999.0, -999.25, -999.9, -9999.0, -9999.9, -99999.0, -999999.0, -32768.0)
+"""Numbers that an exported program takes for missing values in every column but time: usual ones that no quantity in SI units has."""
+
+
 @dataclass(frozen=True)
 class Contents:
     """A model with its values.
 
     ``p`` (size,) SI. ``sources``: the model in C, file name -> text; ``module``: its chain in NumPy. ``origin``: where
-    the values come from; ``saved``: the calibration, if they come from one.
+    the values come from; ``saved``: the calibration, if they come from one. ``null``: column -> numbers that stand for a missing
+    value in it, by the mapping.
     """
 
     name: str
@@ -59,6 +64,7 @@ class Contents:
     module: str
     origin: str
     saved: Saved | None = None
+    null: Mapping[str, Sequence[float]] = field(default_factory=dict)
 
     def outputs(self) -> list[Json]:
         """In the order of model.toml; accelerometers are counted from 0."""
@@ -187,6 +193,7 @@ class Contents:
             "parameters": self.parameters(),
             "inputs": self.inputs(),
             "outputs": self.outputs(),
+            "missing": {"": CODES, **self.null},
             "calibration": None if self.saved is None else self.saved.as_json(),
             "example": {
                 "columns": {n: x.tolist() for n, x in motion.items()},

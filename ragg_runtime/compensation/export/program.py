@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from derive.names import in_comment
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
-from ragg_runtime.compensation.export.contents import DISC, Contents, unit_of
+from ragg_runtime.compensation.export.contents import CODES, DISC, Contents, unit_of
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT
 from ragg_runtime.model.record import HALO, SPIN_WINDOW
 from ragg_runtime.signals.derivative import DEGREES, REACH, WINDOW, weights, wide_weights
@@ -23,7 +23,7 @@ from ragg_runtime.wording.sections import make_environment
 TOLERANCE_EO = 1e-6
 """Largest difference of C and Python, Eo, that `make check` allows."""
 
-PROGRAM = ("main.c", "record.c", "record.h", "derivative.h")
+PROGRAM = ("main.c", "derivative.h")
 
 SPELLINGS: Mapping[str, str] = {
     "m/s^2": "m/s^2|m/s2|m/s**2|m s^-2",
@@ -92,12 +92,14 @@ def write_values(c: Contents, name: str) -> str:
         columns=columns,
         place={n: k for k, n in enumerate(columns)} | {DISC: -1},
         needed={"time", *filter(_is_needed, motion)},
+        codes=[(-1, x) for x in CODES]
+        + [(columns.index(n), x) for n in c.null if n in columns for x in c.null[n]],
         units={n: SPELLINGS.get(unit_of(n), unit_of(n)) for n in columns} | {o["name"]: "V" for o in outputs},
         inputs=c.inputs(),
         from_first=c.instrument.angle_origin == "first-sample",
         parameters=parameters,
         short=[weights(WINDOW, k).tolist() for k in range(WINDOW // 2 + 1)],
-        wide=wide_weights()[: REACH + 1],
+        wide=wide_weights()[: REACH + 1].tolist(),
         spin_window=SPIN_WINDOW,
         spin_most=HALO,
         degrees=DEGREES,

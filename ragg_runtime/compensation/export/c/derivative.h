@@ -7,6 +7,8 @@
 
 #include "values.h"
 
+static const double TURN = 6.283185307179586;
+
 /* By least squares over WINDOW samples; towards the end of the run the window is that at its beginning, turned round. */
 static void short_slope(size_t n, double rate, const double *x, double *slope) {
     const size_t half = WINDOW / 2;
@@ -40,61 +42,54 @@ static void long_slope(size_t n, double rate, const double *x, double *slope) {
 
 /* Gram polynomials of 2 half + 1 points at t, and their first two derivatives (Gorry, Anal. Chem. 62 (1990) 570). */
 static void gram(double half, double t, int degree, double found[MOST_DEGREE + 1][3]) {
-    for (int k = 0; k <= degree; ++k) {
+    found[0][0] = 1.0;
+    found[0][1] = found[0][2] = 0.0;
+    for (int k = 1; k <= degree; ++k) {
+        const double whole = k * (2.0 * half - k + 1.0);
+        const double a = (4.0 * k - 2.0) / whole, b = (k - 1.0) * (2.0 * half + k) / whole;
         for (int s = 0; s < 3; ++s) {
-            if (k == 0) {
-                found[k][s] = s == 0 ? 1.0 : 0.0;
-                continue;
-            }
-            const double whole = k * (2.0 * half - k + 1.0);
-            const double a = (4.0 * k - 2.0) / whole, b = (k - 1.0) * (2.0 * half + k) / whole;
             const double below = s == 0 ? 0.0 : s * found[k - 1][s - 1], before = k > 1 ? found[k - 2][s] : 0.0;
             found[k][s] = a * (t * found[k - 1][s] + below) - b * before;
         }
     }
 }
 
-/* Weights of 2 half + 1 samples for the derivative at a sample counted from the middle one. */
+/* Weights of 2 half + 1 samples for the derivative at a sample counted from the middle one; of even weights about the middle one
+ * itself makes the sum zero. */
 static void polynomial_weights(int half, int at, int order, int degree, double *weights) {
-    double there[MOST_DEGREE + 1][3], here[MOST_DEGREE + 1][3];
+    double there[MOST_DEGREE + 1][3], here[MOST_DEGREE + 1][3], sum = 0.0;
     gram(half, at, degree, there);
     for (int i = -half; i <= half; ++i) {
-        double total = 0.0, below = 1.0, above = 2.0 * half + 1.0;
+        double total = 0.0, below = 1.0;
         gram(half, i, degree, here);
         for (int k = 0; k <= degree; ++k) {
+            double above = 2.0 * half + k + 1.0;
+            for (int m = 1; m <= k; ++m) {
+                above *= 2.0 * half + k + 1.0 - m;
+            }
             total += (2.0 * k + 1.0) * below / above * here[k][0] * there[k][order];
             below *= 2.0 * half - k;
-            above = 1.0;
-            for (int m = 0; m < k + 2; ++m) {
-                above *= 2.0 * half + k + 2.0 - m;
-            }
         }
         weights[i + half] = total;
+        sum += i < 0 ? total : 0.0;
     }
-}
-
-/* Those of an even window, in which the middle weight makes their sum zero. */
-static void even_weights(int half, int order, int degree, double *weights) {
-    polynomial_weights(half, 0, order, degree, weights);
-    double sum = 0.0;
-    for (int i = 0; i < half; ++i) {
-        sum += weights[i];
+    if (at == 0 && order != 1) {
+        weights[half] = -2.0 * sum;
     }
-    weights[half] = -2.0 * sum;
 }
 
 /* The degree with the least expected error of the second derivative. */
 static int best_degree(size_t n, const double *x, int half) {
     double weights[2 * SPIN_MOST + 1], next[2 * SPIN_MOST + 1], grows[DEGREES], noise = 0.0, error = 0.0, least = 0.0;
     int degrees = 0, best = LEAST_DEGREE;
-    while (degrees < DEGREES && DEGREE[degrees] < 2 * half) {
+    while (degrees < DEGREES && DEGREE[degrees] < 2 * half && n >= 2 * (2 * (size_t)half + 1)) {
         ++degrees;
     }
-    for (int k = degrees - 1; k >= 0 && n >= 2 * (2 * (size_t)half + 1); --k) {
+    for (int k = degrees - 1; k >= 0; --k) {
         const int last = k == degrees - 1; /* what the highest degree leaves; else what a step of the degree changes */
         double gain = 0.0, square = 0.0;
-        even_weights(half, last ? 0 : 2, DEGREE[k], weights);
-        even_weights(half, 2, DEGREE[last ? k : k + 1], next);
+        polynomial_weights(half, 0, last ? 0 : 2, DEGREE[k], weights);
+        polynomial_weights(half, 0, 2, DEGREE[last ? k : k + 1], next);
         for (int i = 0; i <= 2 * half; ++i) {
             weights[i] = last ? weights[i] : next[i] - weights[i];
             gain += weights[i] * weights[i];
@@ -104,12 +99,12 @@ static int best_degree(size_t n, const double *x, int half) {
             square += change * change;
         }
         grows[k] = 2.0 * noise * gain - square;
-        noise = noise > square / gain ? noise : square / gain;
+        noise = fmax(noise, square / gain);
     }
-    for (int k = 0; k + 1 < degrees && n >= 2 * (2 * (size_t)half + 1); ++k) {
+    for (int k = 0; k + 1 < degrees; ++k) {
         error += grows[k];
         best = error < least ? DEGREE[k + 1] : best;
-        least = error < least ? error : least;
+        least = fmin(error, least);
     }
     return best;
 }
@@ -117,13 +112,12 @@ static int best_degree(size_t n, const double *x, int half) {
 /* Rate (order 1) or acceleration (2) of an encoder's angle, rad, in which whole turns may be missing, by polynomials through the
  * samples around each. x holds n numbers: what the angle has beyond its mean step. */
 static void smooth_slope(size_t n, double rate, const double *angle, int order, double *slope, double *x) {
-    const double turn = 2.0 * 3.141592653589793, wanted = nearbyint(SPIN_WINDOW * rate);
-    const size_t most = (size_t)fmax(LEAST_DEGREE, fmin(wanted, SPIN_MOST));
+    const size_t most = (size_t)fmax(LEAST_DEGREE, fmin(nearbyint(SPIN_WINDOW * rate), SPIN_MOST));
     const size_t half = (n - 1) / 2 < most ? (n - 1) / 2 : most;
     double weights[2 * SPIN_MOST + 1], steady = 0.0;
     for (size_t i = 1; i < n; ++i) {
         const double d = angle[i] - angle[i - 1];
-        x[i] = d - turn * nearbyint(d / turn);
+        x[i] = d - TURN * nearbyint(d / TURN);
         steady += x[i];
     }
     steady /= (double)(n - 1);
@@ -137,9 +131,6 @@ static void smooth_slope(size_t n, double rate, const double *angle, int order, 
         const size_t first = i < half ? 0 : inside ? i - half : n - 1 - 2 * half;
         if (i <= half || !inside) { /* amid the run the weights are always the same */
             polynomial_weights((int)half, (int)i - (int)(first + half), order, degree, weights);
-        }
-        if (i == half && order == 2) {
-            even_weights((int)half, order, degree, weights);
         }
         double sum = inside ? weigh(weights, half, order == 1 ? -1.0 : 1.0, x + i, 0.0) : 0.0;
         for (size_t k = 0; k <= 2 * half && !inside; ++k) {

@@ -154,7 +154,14 @@ def read(file):
         fail("expected a number in every cell, and as many in every row")
     if len(values) < 2 or values.shape[1:] != (len(header),):
         fail("expected two rows or more, each with as many cells as the header")
-    return {name[0]: values[:, k] for k, name in enumerate(header)}
+    return {name[0]: without_codes(values[:, k], name[0]) for k, name in enumerate(header)}
+
+
+def without_codes(x, name):
+    """A column with NaN in the place of numbers that stand for a missing value."""
+    codes = [*MODEL["missing"].get(name, []), *(MODEL["missing"][""] if name != "time" else [])]
+    missing = [np.isclose(x, code, rtol=1e-6, atol=0.0) for code in codes] + [np.abs(x) >= 1e20]
+    return np.where(np.any(missing, axis=0), np.nan, x)
 
 
 def fail(message):
