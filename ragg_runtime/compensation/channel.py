@@ -14,8 +14,7 @@ from ragg_runtime.base.progress import split_range
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import ROWS, combine_output
 from ragg_runtime.estimation.regressors import Column, put_derivatives
-from ragg_runtime.estimation.seen_gradient import ModelledOutput
-from ragg_runtime.estimation.unknown_gradient import measure_spin_frequency
+from ragg_runtime.estimation.unknown_gradient import ModelledOutput, measure_spin_frequency
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.signals.demodulators import find_demodulator
 

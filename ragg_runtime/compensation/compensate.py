@@ -35,7 +35,7 @@ from ragg_runtime.estimation.observation import (
     spread,
 )
 from ragg_runtime.estimation.scores import finite, measure_error
-from ragg_runtime.estimation.seen_gradient import Block
+from ragg_runtime.estimation.unknown_gradient import Block
 from ragg_runtime.identification.comparison import compute_residual
 from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
 from ragg_runtime.instrument.layout import column_endings, sees
@@ -44,9 +44,8 @@ from ragg_runtime.io.files import write_tables
 from ragg_runtime.io.record import GRADIENT, distinct
 from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.model.model import Model, find_unit_factor, make_vector, scale_factor
-from ragg_runtime.signals.demodulators import find_demodulator
+from ragg_runtime.signals.demodulators import COMPONENTS, find_demodulator, tensor
 from ragg_runtime.signals.derivative import runs
-from ragg_runtime.signals.tensor import COMPONENTS, tensor
 from ragg_runtime.wording import describe_other
 from ragg_runtime.wording.sections import render_notebook
 from ragg_runtime.workspace import Loaded

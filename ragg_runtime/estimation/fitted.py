@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.progress import one_thread, split_range
 from ragg_runtime.estimation import calibration, regressors, whitening
 from ragg_runtime.estimation.calibration import QUIET, Calibration, widen_priors
-from ragg_runtime.estimation.least_squares import Linear, add_prior, fold, make_prior
+from ragg_runtime.estimation.least_squares import Linear, add_prior, fold, make_prior, pick_columns
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import BLOCKS, Observation
 from ragg_runtime.estimation.regressors import Column
@@ -135,7 +135,7 @@ class Fitted:
         """
         T, n = self.half if held_out else self.whole, self.n_base
         picked = [*range(n), *(n + k for k in extra)]
-        known = Linear(add_prior(T[:, [*picked, -1]], range(n, len(picked))))
+        known = Linear(add_prior(pick_columns(T, n, [*picked[n:], -1]), range(n, len(picked))))
         coefficients = known.step
         blocks = list(FITTED_BLOCKS if held_out else range(BLOCKS))
         biases = regressors.find_null_biases(self.calibration.columns)
@@ -166,28 +166,34 @@ class Fitted:
         most = max(1, TOGETHER // sum(len(o.record.time) for o in self.observations))
         found = []
         for some in split_range(len(vectors), most):
-            flights = [x.residuals(np.stack(vectors[some])) for x in self.prepared]
-            found += [self.score_residuals(own) for own in zip(*flights, strict=True)]
+            found += self._score_each([x.residuals(np.stack(vectors[some])) for x in self.prepared])
         return found
 
     def score_residuals(self, residuals: Sequence[Array]) -> Scored:
         """How large residuals (N,), V, are, one of each flight."""
+        return self._score_each([e[None] for e in residuals])[0]
+
+    def _score_each(self, residuals: Sequence[Array]) -> list[Scored]:
+        """How large each of some residuals is, (k, N) of every flight."""
         blocks, squares, samples, errors = [], [], [], []
         for x, e, k_ggi, beyond in zip(self.prepared, residuals, self.scales, self.beyond, strict=True):
             r = x.observation.record
             of_block = np.repeat(np.arange(BLOCKS), np.diff(x.edges))
             held_out = np.isin(of_block, HELD_OUT_BLOCKS)
-            power = np.bincount(of_block, e**2, BLOCKS)
+            power = np.array([np.bincount(of_block, one**2, BLOCKS) for one in e])
             count = np.bincount(of_block, r.valid, BLOCKS)
             with np.errstate(invalid="ignore"):
                 blocks.append(np.sqrt(power / count + beyond))
-            squares.append(float(np.sum(power) / np.sum(count)))
+            squares.append(np.sum(power, axis=1) / np.sum(count))
             samples.append([np.sum(r.valid), np.sum(r.valid & held_out)])
             errors.append(measure_errors(e, r, k_ggi, [np.ones_like(held_out), held_out], beyond))
-        whole, held = (
-            pool_errors(x, n) for x, n in zip(zip(*errors, strict=True), np.transpose(samples), strict=True)
-        )
-        return Scored(whole, held, tuple(squares), np.stack(blocks))
+        found = []
+        for n in range(len(residuals[0])):
+            own = zip(*(x[n] for x in errors), strict=True)
+            whole, held = (pool_errors(x, w) for x, w in zip(own, np.transpose(samples), strict=True))
+            squared = tuple(float(x[n]) for x in squares)
+            found.append(Scored(whole, held, squared, np.stack([x[n] for x in blocks])))
+        return found
 
 
 def calibrate_certain(

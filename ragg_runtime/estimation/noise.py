@@ -150,13 +150,12 @@ def estimate_level(
     alternatives = {n: x for n, x in alternatives.items() if _is_alternative(white, x, quantities, asked)}
     while len(parts) < MOST:
         tests = {n: _test(u, n, x) for n, x in (*quantities.items(), *alternatives.items())}
-        follows = {n: t for n, t in tests.items() if t.log_p + np.log(asked) < np.log(CHANGES)}
-        best = max(follows, key=lambda n: (follows[n].gain, n), default=None)
-        part = None if best is None else follows[best].part
-        if best is None or part is None or best in alternatives:
+        follows = {n: t for n, t in tests.items() if t and t[0] + np.log(asked) < np.log(CHANGES)}
+        best = max(follows, key=lambda n: (follows[n][1], n), default=None)
+        if best is None or best in alternatives:
             break
-        parts.append(part)
-        u = u / part.of(quantities[best])
+        parts.append(follows[best][2])
+        u = u / parts[-1].of(quantities[best])
     level = Level(tuple(parts)).of(quantities.__getitem__)
     return Level(tuple(parts), 1.0 / float(np.sqrt(np.mean(np.square(level)))))
 
@@ -167,27 +166,19 @@ def _is_alternative(u: Array, variance: Array, quantities: Mapping[str, Array], 
     return bool(special.log_ndtr(-score_excess(X @ X.T)[0]) + np.log(asked) < np.log(CHANGES))
 
 
-@dataclass(frozen=True)
-class _Follows:
-    """Whether the level follows a quantity: logarithm of the p-value that it does not, how it does, and what that gains in description.
+def _test(u: Array, name: str, x: Array) -> tuple[float, float, LevelFactor] | None:
+    """Whether the level of u (N,) is another in each group of a quantity x (N,): logarithm of the p-value that it is not, what that gains
+    in description, and the level; ``None``: too few samples, or one interval of time.
 
-    ``gain``: of log likelihood less BIC's penalty, with the squares' own fourth moment.
+    The gain is of log likelihood less BIC's penalty, with the squares' own fourth moment.
     """
-
-    log_p: float = 0.0
-    part: LevelFactor | None = None
-    gain: float = 0.0
-
-
-def _test(u: Array, name: str, x: Array) -> _Follows:
-    """Of u (N,) in groups of x (N,), in each of which the mean square may be another."""
     edges = _find_edges(name, x)
     if not len(edges):
-        return _Follows()
+        return None
     square = u**2
     count, power = _sum_groups(edges, x, square)
     if len(count) <= len(edges) or np.min(count) < FEWEST:
-        return _Follows()
+        return None
     mean = float(np.mean(square))
     ratio = float(np.mean(square**2)) / mean**2 - 1.0
     log_p = log_sf(float(np.sum(count * (power / count / mean - 1.0) ** 2)) / max(ratio, 1e-3), len(edges))
@@ -195,18 +186,15 @@ def _test(u: Array, name: str, x: Array) -> _Follows:
         fine = np.quantile(x, np.linspace(0.0, 1.0, min(FINEST, len(x) // FEWEST) + 1)[1:-1])
         edges = _partition_intervals(fine, *_sum_groups(fine, x, square), float(np.mean(square**2)))
         if not len(edges):
-            return _Follows()
+            return None
         count, power = _sum_groups(edges, x, square)
     mean_of = power / count
     inner = max(2.0, float(np.mean(square**2)) / float(np.average(mean_of**2, weights=count)) - 1.0)
     gain = -0.5 * float(np.sum(count * np.log(np.maximum(mean_of / mean, 1e-300)))) * 2.0 / inner
     at = edges if name in STEPPED else _sum_groups(edges, x, x)[1] / count
     each = 2.0 if name == "time" else 1.0  # an instant, too
-    return _Follows(
-        log_p,
-        LevelFactor(name, np.asarray(at), np.sqrt(mean_of / mean)),
-        gain - 0.5 * each * len(edges) * float(np.log(len(u))),
-    )
+    gain -= 0.5 * each * len(edges) * float(np.log(len(u)))
+    return log_p, gain, LevelFactor(name, np.asarray(at), np.sqrt(mean_of / mean))
 
 
 def _sum_groups(edges: Array, x: Array, values: Array) -> tuple[Array, Array]:

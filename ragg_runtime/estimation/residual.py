@@ -135,8 +135,7 @@ class ProjectedResidual:
         Q, taps = self.directions.T @ self.columns, noise.whitening_filter(n)
         CQ, waves, cross = np.empty_like(Q), np.empty((len(Q), bins), complex), np.zeros(bins)
         for rows in split_range(len(Q), FILLED):
-            wide = np.zeros((len(Q[rows]), n))
-            wide[:, valid] = Q[rows]
+            wide = place_valid(Q[rows], valid)
             through = fft.irfft(fft.rfft(wide, size) * density, size)[:, :n] * valid
             CQ[rows] = through[:, valid]
             waves[rows] = fft.rfft(window * fill_gaps(wide, valid, taps))
@@ -182,9 +181,9 @@ def fit_columns(
 
 
 def place_valid(rest: Array, valid: NDArray[np.bool_]) -> Array:
-    """(N,): of valid samples, zero where a sample is not valid."""
-    e = np.zeros(len(valid))
-    e[valid] = rest
+    """(..., N): of valid samples (..., rows), zero where a sample is not valid."""
+    e = np.zeros((*rest.shape[:-1], len(valid)))
+    e[..., valid] = rest
     return e
 
 
@@ -250,11 +249,7 @@ def _measure_taken(columns: Array, directions: Array, valid: NDArray[np.bool_]) 
     waves = np.empty((len(columns), len(some)), dtype=np.complex128)
 
     for group in split_range(len(columns), GROUP):
-        part = columns[group] * window[valid]
-        if not valid.all():
-            x = np.zeros((len(part), n))
-            x[:, valid] = part
-            part = x
+        part = place_valid(columns[group] * window[valid], valid)
         waves[group] = fft.rfft(part, size, axis=1)[:, some]
     spanned = directions.T @ waves.view(np.float64)  # real and imaginary parts side by side: half the work
     taken = np.einsum("ij,ij->j", spanned, spanned).reshape(-1, 2).sum(axis=1)

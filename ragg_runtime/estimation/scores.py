@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
+from ragg_runtime.base.progress import split_range
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.demodulators import CUTOFF, Demodulator, find_demodulator
 
@@ -48,13 +49,14 @@ def finite(x: float) -> float | None:
 
 
 def demodulate_residual(e: Array, r: Record, k_ggi: float) -> Complex:
-    """Inline + i cross (N,), Eo, of a residual of an output (N,), V; NaN where a sample under the low-pass is missing."""
-    found = np.full(len(e), complex(np.nan, np.nan))
+    """Inline + i cross (..., N), Eo, of residuals of an output (..., N), V; NaN where a sample under the low-pass is missing."""
+    found = np.full(e.shape, complex(np.nan, np.nan))
     if r.turning:
         d = find_demodulator("fir", r.rate)
         cosine, sine = r.quadratures
         there = find_whole(np.ones_like(r.valid), r.valid, d)
-        found[there] = d.low_passed(np.where(r.valid, e, 0.0) * (4 * sine - 2j * cosine) / k_ggi)[there]
+        mixed = np.where(r.valid, e, 0.0) * ((4 * sine - 2j * cosine) / k_ggi)
+        found[..., there] = d.low_passed(mixed)[..., there]
     return found
 
 
@@ -76,27 +78,38 @@ def find_whole(selected: NDArray[np.bool_], valid: NDArray[np.bool_], d: Demodul
     return there
 
 
+TOGETHER = 1 << 20
+"""Samples of residuals that are demodulated together."""
+
+
 def measure_errors(
     e: Array, r: Record, k_ggi: float, selections: Sequence[NDArray[np.bool_]], beyond: float = 0.0
-) -> list[Error]:
-    """The error object of a residual (N,), V, over each of some selections of samples (N,).
+) -> list[list[Error]]:
+    """The error objects of each of some residuals (k, N), V, over each of some selections of samples (N,).
 
-    ``k_ggi``: V/Eo; ``beyond``: mean square, V^2, that the residual has lost before (:mod:`ragg_runtime.estimation.thinning`).
+    ``k_ggi``: V/Eo; ``beyond``: mean square, V^2, that residuals have lost before (:mod:`ragg_runtime.estimation.thinning`).
     """
-    seen = demodulate_residual(e, r, k_ggi)
-    found = []
-    for selected in selections:
-        counted = selected & r.valid
-        rms = float(np.sqrt(np.mean(e[counted] ** 2) + beyond)) if counted.any() else float("nan")
-        g = seen[find_whole(selected, r.valid, find_demodulator("fir", r.rate))] if r.turning else seen[:0]
+    nowhere = np.zeros_like(r.valid)
+    whole = [
+        find_whole(x, r.valid, find_demodulator("fir", r.rate)) if r.turning else nowhere for x in selections
+    ]
+
+    def measure(x: Array, seen: Complex, selected: NDArray[np.bool_], there: NDArray[np.bool_]) -> Error:
+        counted, g = selected & r.valid, seen[there]
+        rms = float(np.sqrt(np.mean(x[counted] ** 2) + beyond)) if counted.any() else float("nan")
         channels = (np.std(g.real), np.std(g.imag)) if len(g) > 1 else (np.nan, np.nan)
-        found.append(Error(rms, rms / k_ggi, float(channels[0]), float(channels[1])))
+        return Error(rms, rms / k_ggi, float(channels[0]), float(channels[1]))
+
+    found = []
+    for some in split_range(len(e), max(1, TOGETHER // len(r.time))):
+        for x, seen in zip(e[some], demodulate_residual(e[some], r, k_ggi), strict=True):
+            found.append([measure(x, seen, *pair) for pair in zip(selections, whole, strict=True)])
     return found
 
 
 def measure_error(e: Array, r: Record, k_ggi: float) -> Error:
     """The error object of a residual (N,), V, of a whole record; ``k_ggi``: V/Eo."""
-    return measure_errors(e, r, k_ggi, [np.ones_like(r.valid)])[0]
+    return measure_errors(e[None], r, k_ggi, [np.ones_like(r.valid)])[0][0]
 
 
 def pool_errors(errors: Sequence[Error], weights: Sequence[float]) -> Error:

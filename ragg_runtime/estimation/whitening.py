@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base import progress
 from ragg_runtime.estimation import unknown_gradient
-from ragg_runtime.estimation.least_squares import compute_r_factor, join
+from ragg_runtime.estimation.least_squares import compute_r_factor, join, make_prior
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import (
     BLOCKS,
@@ -191,13 +191,13 @@ class Projector:
 
     Whitened columns (rows, len(taken)) times ``to_basis`` (len(taken), k) are orthonormal over all rows, without the directions
     that the data see worse than the prior; ``along`` (k,) are the residual's components. ``centre`` (len(taken),): of the priors of unit
-    width that hold the columns' coefficients (NaN: none does).
+    width that hold the columns' coefficients; ``None``: none does.
     """
 
     taken: NDArray[np.intp]
     to_basis: Array
     along: Array
-    centre: Array
+    centre: Array | None = None
 
     def basis(self, piece: Piece) -> Array:
         """(rows, k): the piece's rows of the orthonormal basis."""
@@ -213,21 +213,20 @@ class Projector:
         ``along`` (m, k): their components along the basis; ``gram`` (m, m), ``scores`` (m,): their inner products beside it, with one
         another and with the residual.
         """
-        n, m, held = len(self.taken), len(scores), np.flatnonzero(np.isfinite(self.centre))
+        n, m = len(self.taken), len(scores)
         sizes, U = np.linalg.eigh(gram)
         known = sizes > DEPENDENT * sizes[-1]  # columns that are nearly the same, in single precision
         root = np.sqrt(np.where(known, sizes, 0.0))
         beside = np.where(known, U.T @ scores, 0.0) / np.where(known, root, 1.0)
-        X = np.vstack(
+        X: Array = np.block(
             [
-                np.hstack([np.linalg.pinv(self.to_basis), along.T]),
-                np.hstack([np.zeros((m, n)), root[:, None] * U.T]),
-                np.hstack([np.eye(n)[held], np.zeros((len(held), m))]),
+                [np.linalg.pinv(self.to_basis), along.T, self.along[:, None]],
+                [np.zeros((m, n)), root[:, None] * U.T, beside[:, None]],
             ]
         )
-        y = np.concatenate([self.along, beside, self.centre[held]])
-        R = np.asarray(np.linalg.qr(np.column_stack([X, y]), mode="r"))
-        new = np.abs(np.diag(R)[n : n + m]) > np.sqrt(DEPENDENT) * np.linalg.norm(X[:, n:], axis=0)
+        held = X if self.centre is None else np.vstack([X, make_prior(range(n), X.shape[1], self.centre)])
+        R = np.asarray(np.linalg.qr(held, mode="r"))
+        new = np.abs(np.diag(R)[n : n + m]) > np.sqrt(DEPENDENT) * np.linalg.norm(X[:, n:-1], axis=0)
         return np.asarray(np.cumsum(np.where(new, R[n : n + m, -1], 0.0) ** 2))
 
     def lean(
@@ -243,13 +242,11 @@ def make_projector(
     r_factors: Sequence[Array], n_base: int, given: Sequence[int], to_nominal: Array | None = None
 ) -> Projector:
     """The projector onto base and ``given`` candidate columns, from the block R factors of a flight; ``to_nominal`` (n_base,): where the
-    priors of the base are centred.
+    priors of the base are centred, those of the others at zero.
     """
     taken = np.array([*range(n_base), *(n_base + n for n in given)], dtype=np.intp)
     T = join([t[:, [*taken, t.shape[1] - 1]] for t in r_factors])
     U, s, Vt = np.linalg.svd(T[:, :-1], full_matrices=False)
     seen = s > 1.0
-    centre = np.full(len(taken), np.nan)
-    if to_nominal is not None:
-        centre[:n_base] = to_nominal
+    centre = None if to_nominal is None else np.append(to_nominal, np.zeros(len(given)))
     return Projector(taken, np.asarray(Vt[seen].T / s[seen]), np.asarray(U[:, seen].T @ T[:, -1]), centre)

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.scores import find_whole, measure_error
-from ragg_runtime.estimation.seen_gradient import Block, ModelledOutput
-from ragg_runtime.signals.demodulators import find_demodulator
-from ragg_runtime.signals.tensor import Tensor, tensor
+from ragg_runtime.estimation.unknown_gradient import Block, ModelledOutput
+from ragg_runtime.signals.demodulators import Tensor, find_demodulator, tensor
 
 Array = NDArray[np.float64]
 

@@ -31,7 +31,7 @@ from ragg_runtime.io.sampling import Grid, make_grid
 from ragg_runtime.io.tables import DataTable
 from ragg_runtime.io.text_tables import TWO_ROWS
 from ragg_runtime.signals.derivative import NOTE, bridge_gaps, derive_accelerations, predict_missing, runs
-from ragg_runtime.signals.resolution import find_step
+from ragg_runtime.signals.fir import find_step
 
 BRIDGED = 2.0
 """Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded."""

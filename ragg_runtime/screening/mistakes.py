@@ -17,8 +17,17 @@ from ragg_runtime.io.record import ANGULAR_ACCELERATION
 from ragg_runtime.model.model import make_vector
 from ragg_runtime.model.record import make_kernel
 from ragg_runtime.screening import timing
-from ragg_runtime.screening.linear_fit import INDEPENDENT, RARE, Hypothesis, LinearFit, find_least, fit_rows
-from ragg_runtime.screening.sampler import Rows, Sampler, find_stem
+from ragg_runtime.screening.linear_fit import (
+    INDEPENDENT,
+    RARE,
+    Hypothesis,
+    LinearFit,
+    Rows,
+    Sampler,
+    find_least,
+    find_stem,
+    fit_rows,
+)
 
 Array = NDArray[np.float64]
 
@@ -211,27 +220,24 @@ def _scaled(stems: tuple[str, ...], factor: float) -> Callable[[Rows], Rows]:
     return undo
 
 
-def _output_scaled(factors: float | Array) -> Callable[[Rows], Rows]:
-    return lambda rows: replace(rows, data=factors * rows.data)
+def _mixed(factors: Array) -> Callable[[Rows], Rows]:
+    """The output's series (m, n) times factors (m, m)."""
+    return lambda rows: replace(rows, data=factors @ rows.data)
 
 
 def _outputs(rows: Rows) -> Iterator[ColumnMistake]:
     names = rows.sampler.columns
     what = names[0] if len(names) == 1 else f"{names[0]} ... {names[-1]}"
-    yield ColumnMistake(f"the sign of {what} is reversed", f"multiply {what} by -1", _output_scaled(-1.0))
+    one = np.eye(len(names))
+    yield ColumnMistake(f"the sign of {what} is reversed", f"multiply {what} by -1", _mixed(-one))
     for text, remedy, factor in _in_other_units(rows, what, names[0], "G"):
-        yield ColumnMistake(text, remedy, _output_scaled(factor))
+        yield ColumnMistake(text, remedy, _mixed(factor * one))
     for order in _orders(len(names)):
         swapped = [k for k, was in enumerate(order) if was != k]
         text = f"the order of {', '.join(names)} is {', '.join(names[k] for k in order)}"
         if len(swapped) == 2:
             text = f"{names[swapped[0]]} and {names[swapped[1]]} are exchanged"
-        undo = partial(_reordered, order=order)
-        yield ColumnMistake(text, "exchange the names of the columns", undo, len(swapped))
-
-
-def _reordered(rows: Rows, order: tuple[int, ...]) -> Rows:
-    return replace(rows, data=rows.data[list(order)])
+        yield ColumnMistake(text, "exchange the names of the columns", _mixed(one[list(order)]), len(swapped))
 
 
 def _orders(count: int) -> Iterator[tuple[int, ...]]:
@@ -250,21 +256,16 @@ FACTORS = (1.0, -1.0, 2.0, -2.0, 0.5, -0.5)
 def list_channel_mistakes(rows: Rows) -> Iterator[ColumnMistake]:
     """Inline and cross with other units, names, signs or factors than Gamma_xx - Gamma_yy and Gamma_xy."""
     for text, remedy, factor in _in_other_units(rows, "inline and cross", "inline", "inline"):
-        yield ColumnMistake(text, remedy, _output_scaled(factor))
-    yield ColumnMistake(
-        "inline and cross are exchanged",
-        "exchange their names",
-        lambda r: replace(r, data=np.stack([-r.data[1] / 2, -2 * r.data[0]])),
-        1,
-    )
+        yield ColumnMistake(text, remedy, _mixed(factor * np.eye(2)))
+    exchanged = np.array([[0.0, -0.5], [-2.0, 0.0]])
+    yield ColumnMistake("inline and cross are exchanged", "exchange their names", _mixed(exchanged), 1)
     meant = {"inline": "Gamma_xx - Gamma_yy", "cross": "Gamma_xy"}
     for factors in product(FACTORS, FACTORS):
         changed = [(n, x) for n, x in zip(meant, factors, strict=True) if x != 1.0]
         if changed:
             what = "; ".join(f"{n} is {1 / x:g} times {meant[n]}" for n, x in changed)
             remedy = ", ".join(f"multiply {n} by {x:g}" for n, x in changed)
-            undo = _output_scaled(np.array(factors)[:, None])
-            yield ColumnMistake(what, remedy, undo, 2 * len(changed))
+            yield ColumnMistake(what, remedy, _mixed(np.diag(factors)), 2 * len(changed))
 
 
 def _axes(derived: bool) -> Iterator[ColumnMistake]:

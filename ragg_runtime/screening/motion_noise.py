@@ -17,7 +17,6 @@ from scipy import fft, signal
 from scipy.sparse.linalg import LinearOperator, cg
 
 from ragg_runtime.io import Flight
-from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import (
     ANGULAR_ACCELERATION,
     ANGULAR_RATE,
@@ -27,10 +26,10 @@ from ragg_runtime.io.record import (
     Flag,
 )
 from ragg_runtime.model.model import scale_factor
-from ragg_runtime.screening.linear_fit import fit_rows
-from ragg_runtime.screening.sampler import Sampler
-from ragg_runtime.signals.derivative import PREDICTED, predict_missing, runs
-from ragg_runtime.signals.resolution import find_step
+from ragg_runtime.screening.linear_fit import Sampler, fit_rows
+from ragg_runtime.screening.readings import change_columns
+from ragg_runtime.signals.derivative import PREDICTED, find_short_runs, predict_missing, runs
+from ragg_runtime.signals.fir import find_step
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -103,9 +102,7 @@ class _Spectrum:
 
 def _measure_spectrum(x: Array, there: Mask) -> _Spectrum:
     """Of a column (N,) of which some samples are ``there``: by all stretches in which a few at most are missing at a time."""
-    whole = np.array(there)
-    for r in runs(~there):
-        whole[r] = r.stop - r.start <= WIDEST_SPIKE
+    whole = there | find_short_runs(~there, WIDEST_SPIKE)
     lengths = np.array([r.stop - r.start for r in runs(whole)])
     window = WINDOW
     while window > 8 and np.sum(lengths[lengths >= window]) < max(8 * window, 0.5 * np.sum(lengths)):
@@ -159,8 +156,7 @@ def _compare(p: Array, one: Sampler, other: Sampler) -> float:
 
 def _change(s: Sampler, columns: Mapping[str, Array]) -> Sampler:
     """The same with other columns of motion, and the angular acceleration that follows from them."""
-    flight = replace(s.flight, channels={**s.flight.channels, **columns})
-    return s.with_flight(derive_acceleration(flight) if {*columns} & {*ANGULAR_RATE} else flight)
+    return s.with_flight(change_columns(s.flight, columns))
 
 
 def predict_true(x: Array, there: Mask, std: float) -> Array:

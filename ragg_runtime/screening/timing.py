@@ -15,16 +15,16 @@ from ragg_runtime.base.errors import count
 from ragg_runtime.model.record import disc_angle, find_start
 from ragg_runtime.screening.linear_fit import (
     Hypothesis,
+    Index,
     LinearFit,
+    Sampler,
     find_least,
     fit_robustly,
     fit_rows,
     linearise,
 )
-from ragg_runtime.screening.sampler import Index, Sampler
 from ragg_runtime.signals.demodulators import is_demodulable, low_pass
-from ragg_runtime.signals.fir import convolve
-from ragg_runtime.signals.resolution import find_step
+from ragg_runtime.signals.fir import convolve, find_step
 
 Array = NDArray[np.float64]
 

@@ -62,6 +62,14 @@ def runs(present: Mask, shortest: int = 1) -> list[slice]:
     return [slice(int(a), int(b)) for a, b in edges.reshape(-1, 2) if b - a >= shortest]
 
 
+def find_short_runs(x: Mask, most: int) -> Mask:
+    """(N,): which are True in a run of at most so many."""
+    found = np.array(x)
+    for run in runs(x, most + 1):
+        found[run] = False
+    return found
+
+
 def _derivative(x: Array) -> Array:
     """Derivative per sample of an uninterrupted run."""
     n = x.shape[-1]
@@ -145,9 +153,7 @@ def predict_missing(x: Array, there: Mask) -> Array:
     """
     found, size = bridge_gaps(x, there, smooth=True), PREDICTED + 1
     whole = np.convolve(there, np.ones(size), "valid")[: 1 << 15] > PREDICTED + 0.5
-    known = np.ones(len(x), dtype=np.bool_)
-    for r in runs(~there):
-        known[r] = r.stop - r.start > PREDICTED
+    known = ~find_short_runs(~there, PREDICTED)
     known[:PREDICTED] = known[len(x) - PREDICTED :] = True
     if known.all() or np.sum(whole) < 4 * size:
         return found
@@ -209,8 +215,7 @@ def steady_and_swing(angle: Array, late: Array | None = None) -> tuple[float, Ar
     steps = np.diff(angle)
     steps -= 2 * np.pi * np.rint(steps / (2 * np.pi))
     mean = float(np.cumsum(steps)[-1]) / len(steps)
-    if late is None:
-        return mean, np.concatenate([[0.0], np.cumsum(steps - mean)])
+    late = np.zeros(len(angle)) if late is None else late
     mean /= 1.0 + float(late[-1] - late[0]) / len(steps)
     return mean, np.concatenate([[0.0], np.cumsum(steps - mean)]) - mean * (late - late[0])
 

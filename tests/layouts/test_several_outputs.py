@@ -34,8 +34,7 @@ from ragg_runtime.model.directory import ModelDir
 from ragg_runtime.model.model import evaluate_output, make_vector
 from ragg_runtime.model.record import record
 from ragg_runtime.reference import EffectValues
-from ragg_runtime.signals.demodulators import Demodulator
-from ragg_runtime.signals.tensor import COMPONENTS, tensor
+from ragg_runtime.signals.demodulators import COMPONENTS, Demodulator, tensor
 from tests.layouts import sheets
 from tests.layouts.flown import flown_by
 from tests.layouts.test_layouts_physics import instrument

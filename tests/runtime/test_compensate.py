@@ -21,7 +21,7 @@ from ragg_runtime.cli.main import main
 from ragg_runtime.compensation import channel as output_channel
 from ragg_runtime.compensation.channel import Compensated, OutputChannel, Quality
 from ragg_runtime.compensation.compensate import Kind, leave_out_gradients, prepare
-from ragg_runtime.estimation import seen_gradient
+from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -140,7 +140,7 @@ def test_gradients_of_the_surveys_wavelengths_are_not_eaten() -> None:
 def test_the_division_into_segments_leaves_no_trace(monkeypatch: pytest.MonkeyPatch) -> None:
     _, c = flown(11, "self", "causal")
     whole = c.compensate()
-    for module in (output_channel, seen_gradient):
+    for module in (output_channel, unknown_gradient):
         monkeypatch.setattr(module, "ROWS", 500)
     parts = dataclasses.replace(c).compensate()
     assert np.array_equal(whole.quality, parts.quality)

@@ -19,8 +19,9 @@ from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io.record import GRADIENT, Flag
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.screening import checks, screen
+from ragg_runtime.screening import screen
 from ragg_runtime.screening.motion_noise import predict_true
+from ragg_runtime.screening.screen import AT_REST, list_remarks
 from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
 
@@ -64,16 +65,14 @@ def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect() -> None:
     assert "magnetic-scale would explain it, but" in " ".join(r.text for r in heeded.reasons)
     for levels, said in ((1, False), (3, True), (40, False)):
         warm = 290.0 + np.floor(levels * np.arange(len(x)) / len(x))
-        flagged = x.flagged(
-            checks.list_remarks(s.sheet, replace(x, channels={**x.channels, "temperature": warm}))
-        )
+        flagged = x.flagged(list_remarks(s.sheet, replace(x, channels={**x.channels, "temperature": warm})))
         drifts = heed_flags(replace(d, verdict="missing-effect", found=("gain-drift",)), [flagged])
         assert (drifts.found, "may look like a drift" in str(drifts.reason)) == (("gain-drift",), said)
     at_rest = replace(x, channels={n: np.full(len(x), np.mean(v)) for n, v in x.channels.items()})
-    little = heed_flags(replace(d, reasons=()), [x.flagged(checks.list_remarks(s.sheet, at_rest))])
-    assert (little.verdict, little.reason) == ("adequate", checks.AT_REST)
+    little = heed_flags(replace(d, reasons=()), [x.flagged(list_remarks(s.sheet, at_rest))])
+    assert (little.verdict, little.reason) == ("adequate", AT_REST)
     stuck = replace(x, channels={**x.channels, "a_z": np.full(len(x), 9.8)})
-    stuck = stuck.flagged(checks.list_remarks(s.sheet, stuck))
+    stuck = stuck.flagged(list_remarks(s.sheet, stuck))
     unsteady = heed_flags(replace(d, reasons=(Reason("the noise level changes over the record"),)), [stuck])
     assert unsteady.verdict == "unexplained"
     assert str(unsteady.reason).startswith("a_z does not change at all")

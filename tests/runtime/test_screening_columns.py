@@ -10,10 +10,14 @@ from ragg_runtime.io import Flight
 from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.io.sampling import find_clock_steps, fit_even_clock, make_grid
-from ragg_runtime.screening.checks import _overflown
-from ragg_runtime.screening.repeated import leave_out_repeated
-from ragg_runtime.screening.spikes import find_glitches, find_spikes, leave_out_glitches
-from ragg_runtime.signals.resolution import find_step
+from ragg_runtime.screening.readings import (
+    find_glitches,
+    find_spikes,
+    leave_out_glitches,
+    leave_out_repeated,
+)
+from ragg_runtime.screening.screen import _overflown
+from ragg_runtime.signals.fir import find_step
 
 N = 9600
 RNG = np.random.default_rng(3)

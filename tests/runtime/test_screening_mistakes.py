@@ -19,9 +19,10 @@ from ragg_runtime.io import Flight
 from ragg_runtime.model import model
 from ragg_runtime.model.model import make_vector, scale_factor
 from ragg_runtime.reference.scenario import Scenario, scenario
-from ragg_runtime.screening import checks, mistakes, screen, timing
+from ragg_runtime.screening import mistakes, screen, timing
+from ragg_runtime.screening.linear_fit import make_sampler
 from ragg_runtime.screening.mistakes import Finding, find_mistake
-from ragg_runtime.screening.sampler import make_sampler
+from ragg_runtime.screening.screen import list_remarks
 from ragg_runtime.signals.demodulators import demodulate
 
 G0 = 9.8
@@ -285,9 +286,9 @@ def test_columns_that_contradict_each_other_are_remarked() -> None:
         ),
         (replace(x, channels={**c, "spin_angle": -np.pi / 2 * x.time}), "spin_angle turns at -0.25 Hz"),
     ):
-        assert any(words in f.reason for f in checks.list_remarks(drawn(12).sheet, wrong))
+        assert any(words in f.reason for f in list_remarks(drawn(12).sheet, wrong))
     right = replace(x, channels={**c, "spin_angle": np.pi / 2 * x.time})
-    assert checks.list_remarks(drawn(12).sheet, right) == []
+    assert list_remarks(drawn(12).sheet, right) == []
 
 
 def demodulated(s: Scenario, x: Flight, low_pass: Any = None) -> Flight:
