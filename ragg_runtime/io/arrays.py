@@ -410,7 +410,7 @@ def convert_arrow(column: pa.ChunkedArray) -> NDArray[Any]:
     if pa.types.is_temporal(kind):
         return np.asarray(column.to_numpy())
     column = column.cast(pa.int8()) if pa.types.is_boolean(kind) else column
-    whole = column.cast(pa.float64()).combine_chunks()
+    whole = column.cast(pa.float64(), safe=False).combine_chunks()  # whole numbers beyond 2^53: ns since 1970
     return np.asarray(np.from_dlpack(whole.fill_null(float("nan")) if whole.null_count else whole))
 
 

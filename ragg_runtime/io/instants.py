@@ -167,6 +167,8 @@ def _write_clock(value: Any) -> str:
     if not isinstance(value, float):
         return str(value).strip()
     text = f"{value:013.6f}"
+    if text[4:6] == "60" and value % 100 < 60:  # of 59.9999999 no leap second
+        text = f"{value - 1e-6:013.6f}"
     if value >= 1e13:  # with the date in front; of single milliseconds nothing is known
         return f"{value:.3f}"
     return f"{text[:2]}:{text[2:4]}:{text[4:]}" if np.isfinite(value) else ""

@@ -362,15 +362,20 @@ def _read_plain(table: DataTable) -> DataTable:
 
 
 def join_parts(table: DataTable) -> DataTable:
-    """A table whose columns ``year`` to ``second`` are one, ``time``, of instants as texts."""
+    """A table whose columns ``year`` to ``second`` are one, ``time``, of seconds since the first midnight."""
     parts = {c.name.casefold(): c for c in table.columns if c.name.casefold() in PARTS and c.is_number}
     if len(parts) < len(PARTS) or "time" in table.names:
         return table
-    rows = zip(*(parts[n].values for n in PARTS), strict=True)
-    written = "{:04.0f}-{:02.0f}-{:02.0f}T{:02.0f}:{:02.0f}:{:012.9f}"
-    texts = ["" if np.isnan(row).any() else written.format(*row) for row in rows]
+    numbers = np.stack([parts[n].values for n in PARTS])
+    year, month, day, hour, minute, second = np.where(np.isfinite(numbers).all(axis=0), numbers, np.nan)
+    known = np.isfinite(year)
+    months = (12 * (year[known] - 1970) + month[known] - 1).astype("M8[M]")
+    dates = months.astype("M8[D]") + (day[known] - 1).astype("m8[D]")
+    midnight = dates.min(initial=np.datetime64("2100-01-01"))
+    time = (hour * 60 + minute) * 60 + second
+    time[known] += (dates - midnight).astype("m8[s]").astype(np.float64)
     others = (c for c in table.columns if c not in parts.values())
-    return replace(table, columns=(DataColumn("time", "", np.array(texts, dtype=object)), *others))
+    return replace(table, columns=(DataColumn("time", f"s since {midnight}", time), *others))
 
 
 def _read_mapped(table: DataTable, mapping: Mapped) -> DataTable:

@@ -98,9 +98,10 @@ def find_header(rows: Sequence[Sequence[str]]) -> Header | None:
     if not above:
         return None
     size = max(width, *(len(r) for r in rows[begins : begins + 1]), 0)
-    names, units, notes = _read_header(
-        [([c.strip() for c in rows[k]] + [""] * size)[:size] for k in above[-3:]]
-    )
+    padded = [([c.strip() for c in rows[k]] + [""] * size)[:size] for k in above[-3:]]
+    if len(rows[above[-1]]) == size - 1 and _are_numbered([rows[k] for k in alike[first:]], size):
+        padded[-1] = ["", *padded[-1][:-1]]  # as R writes a table, without a name for the numbers of the rows
+    names, units, notes = _read_header(padded)
     headings = [h if h[0] else (n.strip(), "") for n, h in zip(names, read_headings(names), strict=True)]
     return Header(
         names=tuple(n for n, _ in headings),
@@ -144,6 +145,13 @@ def _is_data(row: Sequence[str]) -> bool:
     filled = list(filter(_is_filled, row))
     values = sum(is_quantity(c) or any(find_parts(c)) for c in filled)
     return values > 0 and 2 * values > len(filled)
+
+
+def _are_numbered(rows: Sequence[Sequence[str]], width: int) -> bool:
+    """Whether rows as wide as this, without a blank at their end, begin with 1, 2, 3 or the like."""
+    if not all(len(r) == width and _is_filled(r[-1]) and r[0].isdecimal() for r in rows):
+        return False
+    return len({int(r[0]) - k for k, r in enumerate(rows)}) == 1
 
 
 def _needs_a_row_above(names: Sequence[str]) -> bool:

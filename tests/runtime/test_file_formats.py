@@ -127,6 +127,7 @@ def test_parquet_of_other_tools(tmp_path: Path) -> None:
         a_y=pa.array([str(k).encode() for k in counts]),
         tags=pa.array([["a", "b"]] * 50),
         switch=pa.array([True] * 50),
+        nanoseconds=pa.array(1_772_000_000_000_000_001 + counts.astype(np.int64)),
     )
     found = read_flight(path, G0)
     assert np.array_equal(found.outputs["G_out"], counts)

@@ -126,6 +126,7 @@ CSV = {
         "time [us];" + ";".join(HEADER[1:]), rows([f"{1e6 * t + 1e6:,.0f}".replace(",", ".") for t in VALUES["time"]]), ";", decimal=","
     ),
     "room reserved ahead": text(PLAIN, rows()) + 300 * "\0",
+    "row numbers in front, as R writes them": text(PLAIN, [[f'"{k + 1}"', *r] for k, r in enumerate(rows())]),
     "row numbers in front": text("," + PLAIN, [[k, *r] for k, r in enumerate(rows())]),
 }  # fmt: skip
 
@@ -178,6 +179,19 @@ def test_dates_as_people_write_them(tmp_path: Path, kind: str) -> None:
     assert not made.questions, made.text
     if "days" not in kind:
         same(read_flight(tmp_path / "x.csv", G0, mapping=parse_mapping(made.text, tmp_path)), instants)
+
+
+def test_a_second_of_almost_60_is_no_leap_second(tmp_path: Path) -> None:
+    """Sums of floats: six columns, a clock in digits."""
+    second = (58 + VALUES["time"]) % 60
+    second[32] = 60 - 1e-10
+    minute = np.r_[np.zeros(33), np.ones(N - 33)]
+    parts = {"year": 2026.0, "month": 3.0, "day": 1.0, "hour": 12.0, "minute": minute, "second": second}
+    table = {h: v for h, v in zip(HEADER[1:], [*VALUES.values()][1:], strict=True)}  # noqa: C416
+    same(read_flight({n: np.broadcast_to(v, N) for n, v in parts.items()} | table, G0), True)
+    columns = "".join(f'{n} = "{n}"\n' for n in UNITS if n != "time")
+    mapping = parse_mapping(f'[time]\ncolumn = "t"\nformat = "clock"\n[columns]\n{columns}', tmp_path)
+    same(read_flight({"t": 120000 + 100 * minute + second} | table, G0, mapping=mapping), True)
 
 
 def test_a_date_of_two_meanings_is_asked_for(tmp_path: Path) -> None:
