@@ -146,6 +146,7 @@ def stamps(start: str, form: str) -> list[str]:
 DATES: dict[str, tuple[list[Any], bool]] = {
     "ISO": (stamps("2026-03-01 23:59:58", "%Y-%m-%dT%H:%M:%S.%fZ"), True),
     "slashes, year first": (stamps("2026-03-01 23:59:58", "%Y/%m/%d %H:%M:%S.%f"), True),
+    "an underscore between": (stamps("2026-03-01 10:00:00", "%Y-%m-%d_%H:%M:%S.%f"), True),
     "dots": (stamps("2026-03-01 10:00:00", "%d.%m.%Y %H:%M:%S.%f"), True),
     "day first": (stamps("2026-03-13 23:59:58", "%d/%m/%Y %H:%M:%S.%f"), True),
     "month first, in the afternoon": (stamps("2026-03-13 11:59:58", "%m/%d/%y %I:%M:%S.%f %p"), True),
