@@ -15,7 +15,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.units import units
 from ragg_runtime.reference import CATALOGUE, MotionSignals, Simulation, Sinusoids, simulate, still
 from ragg_runtime.reference.effects import resolve
-from ragg_runtime.reference.effects.force import fourth_order_tensor, third_order_tensor
+from ragg_runtime.reference.effects.force import gravity_tensor
 from ragg_runtime.reference.gravity import Gradient, PointMass
 from ragg_runtime.reference.motion import recorded_motion
 from ragg_runtime.reference.scenario import perfect, trimmed
@@ -177,8 +177,8 @@ def test_near_mass_is_what_newton_adds_to_the_gradient() -> None:
         assert np.max(np.abs(getattr(newton, name) - getattr(both, name))) < 0.05 * missing
     assert np.max(np.abs(even.G_out - flat.G_out)) < 1e-5 * missing
     values = resolve({"near-mass": T})["near-mass"]
-    np.testing.assert_allclose(np.einsum("iij->j", third_order_tensor(values)), 0, atol=1e-20)
-    np.testing.assert_allclose(np.einsum("iijk->jk", fourth_order_tensor(values)), 0, atol=1e-20)
+    np.testing.assert_allclose(np.einsum("iij->j", gravity_tensor(values, 3)), 0, atol=1e-20)
+    np.testing.assert_allclose(np.einsum("iijk->jk", gravity_tensor(values, 4)), 0, atol=1e-20)
 
 
 def test_saturation_and_quantisation() -> None:

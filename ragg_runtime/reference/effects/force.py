@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,15 +27,20 @@ def attraction(r: Array, auxiliaries: Mapping[str, Array], effects: Injected) ->
     if tanks := effects.get("fuel-gradient"):
         total = total + contract(_five(tanks), r) * auxiliaries["fuel_mass"]
     if carrier := effects.get("self-gradient-yaw"):
-        total = total + _yawed(carrier, r, auxiliaries["yaw"]) - _yawed(carrier, r, np.zeros(r.shape[1]))
+        d, xy, xz, yz = (carrier[f"G_{k}"] for k in ("d", "xy", "xz", "yz"))
+        level = np.array([d, xy, xz, -d, yz, 0.0])
+        total = total + _turned(level, r, [auxiliaries["yaw"]]) - contract(level, r)
     if rigid := effects.get("carrier-gradient"):
-        total = total + _carried(rigid, r, auxiliaries)
+        level = _five(rigid)
+        full = level[:, None] + _five(rigid, "F_{}")[:, None] * auxiliaries.get("fuel_mass", 0.0)
+        attitude = [auxiliaries[n] for n in ("yaw", "pitch", "roll")]
+        total = total + _turned(full, r, attitude) - contract(level, r)
     for body in ("near-sphere", "near-cuboid"):
         if body in effects:
             total = total + _of_body(effects[body], r, auxiliaries)
     if near := effects.get("near-mass"):
-        total = total + np.einsum("ijk,jn,kn->in", third_order_tensor(near), r, r) / 2
-        total = total + np.einsum("ijkl,jn,kn,ln->in", fourth_order_tensor(near), r, r, r) / 6
+        total = total + np.einsum("ijk,jn,kn->in", gravity_tensor(near, 3), r, r) / 2
+        total = total + np.einsum("ijkl,jn,kn,ln->in", gravity_tensor(near, 4), r, r, r) / 6
     return total
 
 
@@ -56,29 +61,21 @@ def _of_body(body: Values, r: Array, auxiliaries: Mapping[str, Array]) -> Array:
     return total
 
 
-def _yawed(carrier: Values, r: Array, yaw: Array) -> Array:
-    """Attraction (3, N) m/s^2 of masses that turn with the carrier: r is looked at from there, and the answer turned back."""
-    c, s = np.cos(yaw), np.sin(yaw)
-    x, y, z = c * r[0] + s * r[1], c * r[1] - s * r[0], r[2]
-    d, xy, xz, yz = (carrier[f"G_{k}"] for k in ("d", "xy", "xz", "yz"))
-    u, v, w = d * x + xy * y + xz * z, xy * x - d * y + yz * z, xz * x + yz * y
-    return np.stack([c * u - s * v, s * u + c * v, w])
+def _turned(tensor: Array, r: Array, attitude: Sequence[Array]) -> Array:
+    """Attraction (3, N) m/s^2 of masses that turn with the carrier: r is looked at from there, and the answer turned back.
 
-
-def _carried(carrier: Values, r: Array, auxiliaries: Mapping[str, Array]) -> Array:
-    """Attraction (3, N) m/s^2 of carrier and fuel: at r in the carrier, less that of the level carrier without fuel."""
-    attitude = [auxiliaries[n] for n in ("yaw", "pitch", "roll")]
+    ``attitude``: angles (N,) rad about z, y and x, or the first of them.
+    """
+    turns = list(zip(_PLANES, attitude, strict=False))
     seen = np.array(r)
-    for (a, b), angle in zip(_PLANES, attitude, strict=True):
+    for (a, b), angle in turns:
         c, s = np.cos(angle), np.sin(angle)
         seen[a], seen[b] = c * seen[a] + s * seen[b], c * seen[b] - s * seen[a]
-    pulled = contract(_five(carrier), seen)
-    if "fuel_mass" in auxiliaries:
-        pulled = pulled + contract(_five(carrier, "F_{}"), seen) * auxiliaries["fuel_mass"]
-    for (a, b), angle in zip(_PLANES[::-1], attitude[::-1], strict=True):
+    pulled = contract(tensor, seen)
+    for (a, b), angle in reversed(turns):
         c, s = np.cos(angle), np.sin(angle)
         pulled[a], pulled[b] = c * pulled[a] - s * pulled[b], c * pulled[b] + s * pulled[a]
-    return np.asarray(pulled - contract(_five(carrier), r))
+    return pulled
 
 
 _PLANES = ((0, 1), (2, 0), (1, 2))
@@ -110,30 +107,15 @@ def _matrix(of: Mapping[str, float]) -> list[list[float]]:
     return [[of["xx"], of["xy"], of["xz"]], [of["xy"], of["yy"], of["yz"]], [of["xz"], of["yz"], of["zz"]]]
 
 
-def third_order_tensor(near: Values) -> Array:
-    """The symmetric, traceless (3, 3, 3) tensor of second derivatives of a_g, 1/(m s^2)."""
-    seven = {name.removeprefix("T_"): float(value) for name, value in near.items() if len(name) == 5}
-    # Laplace: each a_g component's Laplacian vanishes.
-    seven["xzz"] = -(seven["xxx"] + seven["xyy"])
-    seven["yzz"] = -(seven["xxy"] + seven["yyy"])
-    seven["zzz"] = -(seven["xxz"] + seven["yyz"])
-    return _symmetric(seven, 3)
-
-
-def fourth_order_tensor(near: Values) -> Array:
-    """The symmetric, traceless (3, 3, 3, 3) tensor of third derivatives of a_g, 1/(m^2 s^2)."""
-    found = {name.removeprefix("T_"): float(value) for name, value in near.items() if len(name) == 6}
-    for pair in ("xx", "xy", "xz", "yy", "yz", "zz"):  # Laplace, for each second derivative; z^4 comes last
-        of_x, of_y = ("".join(sorted(f"{pair}{k}{k}")) for k in "xy")
-        found[f"{pair}zz"] = -(found[of_x] + found[of_y])
-    return _symmetric(found, 4)
-
-
-def _symmetric(components: Mapping[str, float], rank: int) -> Array:
-    """The tensor of components by their sorted indices."""
+def gravity_tensor(near: Values, rank: int) -> Array:
+    """The symmetric, traceless tensor of second or third derivatives of a_g, (3, 3, 3) 1/(m s^2) or (3, 3, 3, 3) 1/(m^2 s^2)."""
+    found = {n.removeprefix("T_"): float(x) for n, x in near.items() if len(n) == rank + 2}
+    for few in itertools.combinations_with_replacement("xyz", rank - 2):  # Laplace; z alone comes last
+        of_x, of_y = ("".join(sorted((*few, k, k))) for k in "xy")
+        found["".join(few) + "zz"] = -(found[of_x] + found[of_y])
     tensor = np.empty((3,) * rank)
     for index in itertools.product(range(3), repeat=rank):
-        tensor[index] = components["".join("xyz"[k] for k in sorted(index))]
+        tensor[index] = found["".join("xyz"[k] for k in sorted(index))]
     return tensor
 
 
