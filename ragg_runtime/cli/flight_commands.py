@@ -110,7 +110,7 @@ def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], ma
 def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | None) -> None:
     """Add an effect: derive again, calibrate, show the error."""
     m = load(model_dir)
-    if find_wanted().report_file is not None and not flights:
+    if find_wanted("report_file") is not None and not flights:
         raise UserError(
             "a report of `add` needs a flight", remedy="give a flight: ragg add MODEL EFFECT FLIGHT"
         )

@@ -9,7 +9,6 @@ import os
 import shlex
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -106,15 +105,6 @@ _REPORT = click.Option(
 _VERBOSE = click.Option(["-v", "--verbose"], is_flag=True, help="Show all details.")
 
 
-@dataclass(frozen=True)
-class Wanted:
-    """What a command writes besides its result on stdout."""
-
-    json_file: str | None = None
-    report_file: str | None = None
-    verbose: bool = False
-
-
 class Command(click.Command):
     """A command that looks at the files to write before it begins; all other paths that it takes are inputs.
 
@@ -133,7 +123,7 @@ class Command(click.Command):
             )
         self._check_outputs(ctx)
         options = ("json_file", "report_file", "verbose")
-        ctx.meta[__name__] = Wanted(**{k: ctx.params.pop(k) for k in options if k in ctx.params})
+        ctx.meta[__name__] = {k: ctx.params.pop(k, None) for k in options}
         return super().invoke(ctx)
 
     def _check_outputs(self, ctx: click.Context) -> None:
@@ -154,10 +144,9 @@ class Command(click.Command):
             known.append(path)
 
 
-def find_wanted() -> Wanted:
-    """What the command that runs was asked to write."""
-    found: Wanted = click.get_current_context().meta[__name__]
-    return found
+def find_wanted(option: str) -> Any:
+    """What the command that runs was asked to write besides its result: ``json_file``, ``report_file``, ``verbose``."""
+    return click.get_current_context().meta[__name__][option]
 
 
 def load(model_dir: Path) -> Loaded:
@@ -206,24 +195,24 @@ def conclude(
     page
         Makes the report.
     """
-    wanted = find_wanted()
-    if wanted.report_file is not None and page is not None:
+    report, document = find_wanted("report_file"), find_wanted("json_file")
+    if report is not None and page is not None:
         progress.remark("writing the report")
-        if wanted.report_file in STDOUT:
+        if report in STDOUT:
             click.echo(page(), nl=False)
         else:
-            write_text(Path(wanted.report_file), page())
-        click.echo(one_line(f"report: {wanted.report_file}"), err=True)
-    if wanted.json_file is not None:
+            write_text(Path(report), page())
+        click.echo(one_line(f"report: {report}"), err=True)
+    if document is not None:
         whole = {"provenance": provenance(command_line())} | dict(result)
         whole |= {} if source is None else source.as_json()
         text = json.dumps(whole, indent=1, allow_nan=False)
-        if wanted.json_file in STDOUT:
+        if document in STDOUT:
             click.echo(text)
             return
-        write_text(Path(wanted.json_file), text + "\n")
+        write_text(Path(document), text + "\n")
     noted = notes_of([] if source is None else source.flights)
-    click.echo(render_text([*sections, *noted], verbose=wanted.verbose))
+    click.echo(render_text([*sections, *noted], verbose=bool(find_wanted("verbose"))))
 
 
 def notes_of(flights: Sequence[Flight]) -> list[Section]:

@@ -13,16 +13,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.experiments import paper
-from ragg_runtime.experiments.paper import Experiment, judge
-from ragg_runtime.experiments.runs import (
+from ragg_runtime.experiments.paper import (
     DERIVED,
     LARGEST,
     Channels,
+    Experiment,
     average_turns,
     bounds,
     demodulate_run,
     draw_angles,
     find_error,
+    judge,
     largest,
     predict,
     respond,

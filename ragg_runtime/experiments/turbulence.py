@@ -14,13 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.experiments import paper
-from ragg_runtime.experiments.paper import Experiment, PrintedEntry, judge
-from ragg_runtime.experiments.runs import (
+from ragg_runtime.experiments.paper import (
     LARGEST,
+    Experiment,
+    PrintedEntry,
     bounds,
     demodulate_run,
     draw_angles,
     find_error,
+    judge,
     respond,
 )
 from ragg_runtime.instrument.instrument import Instrument

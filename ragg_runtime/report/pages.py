@@ -5,8 +5,6 @@ from __future__ import annotations
 import html
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import cache
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -68,7 +66,6 @@ def render_page(kind: str, sections: Sequence[Section], source: Source, f: Fitte
         page.render(
             kind=kind,
             source=source,
-            style=_read_style(),
             first=render_html([first], draw),
             others=render_html(others, draw),
             facts=[
@@ -78,11 +75,6 @@ def render_page(kind: str, sections: Sequence[Section], source: Source, f: Fitte
             ],
         )
     )
-
-
-@cache
-def _read_style() -> str:
-    return resources.files("ragg_runtime.report").joinpath("templates", "style.css").read_text("utf-8")
 
 
 Array = np.ndarray[Any, np.dtype[np.float64]]

@@ -7,7 +7,15 @@ import pytest
 from click.testing import CliRunner
 
 from ragg_runtime.experiments.__main__ import main
-from ragg_runtime.experiments.paper import Experiment, Printed, PrintedEntry, judge, write_page
+from ragg_runtime.experiments.paper import (
+    Channels,
+    Experiment,
+    Printed,
+    PrintedEntry,
+    find_error,
+    judge,
+    write_page,
+)
 from ragg_runtime.experiments.regular import (
     find_centre,
     repeat_dynamic,
@@ -16,7 +24,6 @@ from ragg_runtime.experiments.regular import (
     run_regular,
     subtract_centre,
 )
-from ragg_runtime.experiments.runs import Channels, find_error
 from ragg_runtime.experiments.turbulence import repeat_turbulence
 from ragg_runtime.reference.gravity import G
 from ragg_runtime.reference.scenario import table_v
