@@ -1,7 +1,10 @@
-"""mapping.toml: what it can say, what is refused, what `ragg map` writes of files as companies deliver them."""
+"""Units, in which g is the model's g0, and mapping.toml: what they say, what is refused, what `ragg map` writes of strange files."""
 
 from __future__ import annotations
 
+import contextlib
+import math
+import pickle
 import tomllib
 from datetime import UTC, datetime
 from pathlib import Path
@@ -9,10 +12,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import cli
+from ragg_runtime.instrument.units import RawQuantity, Units, read_quantity, units
 from ragg_runtime.io import Flight, read_flight, read_flights, write_flight
 from ragg_runtime.io.draft import draft_mapping
 from ragg_runtime.io.files import read_recordings
@@ -34,16 +40,15 @@ def foreign(path: Path, time: str = "{t:.4f}", head: str = "T", lines: tuple[int
     x = made()
     names = ["AN", "AE", "AD", "GN", "GE", "GD", "OUT"]
     rows = ["LINE," * bool(lines) + f"{head}," + ",".join(names)]
+    a = np.stack([x.channels[n] for n in ("a_y", "a_x", "a_z")]) / G0
+    w = np.degrees([x.channels[n] for n in ("omega_y", "omega_x", "omega_z")])
+    a[2], w[2] = -a[2], -w[2]
+    table = np.vstack([a, w, -1e3 * x.outputs["G_out"]]).T.tolist()
     for line in lines or (0,):
-        for k, t in enumerate(x.time):
-            a = [x.channels[n][k] / G0 for n in ("a_y", "a_x")] + [-x.channels["a_z"][k] / G0]
-            w = [np.degrees(x.channels[n][k]) for n in ("omega_y", "omega_x")]
-            w.append(-np.degrees(x.channels["omega_z"][k]))
-            values = [*a, *w, -1e3 * x.outputs["G_out"][k]]
-            rows.append(
-                f"{line}," * bool(lines) + time.format(t=t, s=t % 60) + "," + ",".join(map(repr, values))
-            )
-    path.write_text("\n".join(rows).replace("np.float64(", "").replace(")", "") + "\n")
+        for t, values in zip(x.time, table, strict=True):
+            front = f"{line}," * bool(lines) + time.format(t=t, s=t % 60)
+            rows.append(front + "," + ",".join(map(repr, values)))
+    path.write_text("\n".join(rows) + "\n")
     return x
 
 
@@ -71,13 +76,12 @@ def parse(text: str = TEXT) -> Mapped:
 
 
 def test_units_signs_scales_and_axes(tmp_path: Path) -> None:
-    path = tmp_path / "x.csv"
-    x = foreign(path)
-    found = read_flight(path, G0, mapping=parse())
+    x = foreign(tmp_path / "x.csv")
+    found = read_flight(tmp_path / "x.csv", G0, mapping=parse())
     assert found.time == pytest.approx(x.time)
-    for name in MOTION:
-        assert found.channels[name] == pytest.approx(x.channels[name], rel=1e-12, abs=1e-12), name
-    assert found.outputs["G_out"] == pytest.approx(x.outputs["G_out"], rel=1e-12)
+    for name, values in {**x.channels, **x.outputs}.items():
+        read = {**found.channels, **found.outputs}[name]
+        assert read == pytest.approx(values, rel=1e-12, abs=1e-12), name
     assert found.notes[0].startswith("read by mapping.toml (SHA-256 ")
 
 
@@ -236,17 +240,14 @@ def test_names_of_loggers_are_known(tmp_path: Path, header: str, wanted: str) ->
 def test_kept_with_the_model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("mapping.toml").write_text(TEXT)
-    m = api.new("model", None, Path("mapping.toml"))
+    how = api.mapping_of(api.new("model", None, Path("mapping.toml")), None)
     assert Path("model/mapping.toml").read_text() == TEXT
-    how = api.mapping_of(m, None)
-    assert how is not None
-    assert how.kept
+    assert how is not None and how.kept
     foreign(Path("x.csv"))
-    assert read_flights("x.csv", G0, mapping=how)[0].channels["a_x"] == pytest.approx(made().channels["a_x"])
     write_flight(made(), "plain.csv")  # a file that has none of its columns is read as it is
-    assert np.array_equal(
-        read_flights("plain.csv", G0, mapping=how)[0].channels["a_x"], made().channels["a_x"]
-    )
+    for path in ("x.csv", "plain.csv"):
+        (found,) = read_flights(path, G0, mapping=how)
+        assert found.channels["a_x"] == pytest.approx(made().channels["a_x"])
     run = CliRunner().invoke(cli, ["new", "other", "--map", "none.toml"])
     assert isinstance(run.exception, UserError)
     assert not Path("other").exists()
@@ -266,3 +267,140 @@ def test_commands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert "[columns]" in Path("draft.toml").read_text()
     run = CliRunner().invoke(cli, ["map", "x.csv", "-o", "draft.toml"])
     assert isinstance(run.exception, UserError)  # what was answered is not overwritten
+
+
+# --- units ---
+
+
+@pytest.mark.parametrize("g0", [0.3, 9.80665])
+def test_g_is_g0_wherever_it_stands(g0: float) -> None:
+    known = Units(g0)
+    for unit, si_unit, expected in (
+        ("g", "m/s^2", g0),
+        ("mg", "m/s^2", 1e-3 * g0),
+        ("ug", "m/s^2", 1e-6 * g0),
+        ("µg", "m/s^2", 1e-6 * g0),
+        ("mA/g", "A/(m/s^2)", 1e-3 / g0),
+        ("ug/g", "1", 1e-6),
+        ("ug/g^2", "1/(m/s^2)", 1e-6 / g0),
+        ("ug/g^3", "(m/s^2)^-2", 1e-6 / g0**2),
+        ("um/g", "s^2", 1e-6 / g0),
+        ("rad/g", "rad/(m/s^2)", 1 / g0),
+        ("g^2", "m^2/s^4", g0**2),
+        ("ug/K", "m/s^2/K", 1e-6 * g0),
+    ):
+        assert known.to_si(1.0, unit, si_unit) == pytest.approx(expected, rel=1e-14), unit
+
+
+@pytest.mark.parametrize(
+    ("unit", "si_unit", "expected"),
+    [
+        ("Eo", "s^-2", 1e-9),
+        ("Eo/m", "1/(s^2*m)", 1e-9),
+        ("arcsec", "rad", math.pi / 180 / 3600),
+        ("deg/h", "rad/s", math.pi / 180 / 3600),
+        ("°", "rad", math.pi / 180),
+        ("%", "1", 0.01),
+        ("rad/s^0.5", "rad/s^0.5", 1.0),
+        ("ug/(rad/s^2)", "m/s^2/(rad/s^2)", 9.8e-6),
+        ("kg", "kg", 1.0),
+        ("N/kg", "m/s^2", 1.0),
+        ("Gal", "m/s^2", 0.01),
+        ("rpm", "rad/s", 2 * math.pi / 60),
+        ("rpm", "Hz", 1 / 60),
+        ("rad/s", "Hz", 1 / (2 * math.pi)),
+        ("deg/s", "Hz", 1 / 360),
+        ("mG", "m/s^2", 9.8e-3),
+        ("M/S2", "m/s^2", 1.0),
+        ("MV", "V", 1e6),
+        *((volt, "V", 1.0) for volt in ("Volt", "volts")),
+        ("mVolt", "V", 1e-3),
+        ("DEG/S", "rad/s", math.pi / 180),
+        ("mdps", "rad/s", math.pi / 180e3),
+        ("Deg/Hr", "rad/s", math.pi / 180 / 3600),
+        ("m/s²", "m/s^2", 1.0),
+        ("G", "m/s^2", 9.8),
+        *((celsius, "K", 274.15) for celsius in ("\u2103", "C", "degC", "degrees_celsius")),
+    ],
+)
+def test_conversions(unit: str, si_unit: str, expected: float) -> None:
+    assert units(9.8).to_si(1.0, unit, si_unit) == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("unit", "si_unit"), [("m", "s"), ("gram", "m/s^2"), ("ug/g^2", "m/s^2"), ("1", "V")]
+)
+def test_wrong_dimension_names_both(unit: str, si_unit: str) -> None:
+    with pytest.raises(UserError, match="wrong dimension") as caught:
+        units(9.8).to_si(1.0, unit, si_unit, "model.toml: [disc] radius")
+    assert all(x in str(caught.value) for x in ("model.toml: [disc] radius", repr(unit), repr(si_unit)))
+    with pytest.raises(UserError, match="frequency"):  # which is no angular rate
+        units(9.8).to_si(1.0, "Hz", "rad/s")
+
+
+NO_UNITS = (
+    *("furlogn", "m+s", "m;s", "2 m", "m 2", "m^", "m^^2", "m**n", "(m", "m)", "m/", "'m'", "m s^", "m^-", "//"),
+    *("9**9**9", "m**9**9**9", "m^1e400", "m^99", "m" * 200, "__import__('os')", "lambda: 0", "m\x00"),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("unit", NO_UNITS)
+def test_what_is_no_unit(unit: str) -> None:
+    with pytest.raises(UserError, match="not a unit"):
+        units(9.8).parse(unit, "here")
+
+
+@settings(deadline=None)
+@given(st.text(alphabet="mgsAVK019.^*/() -+uE", max_size=20))
+def test_any_text_is_a_unit_or_a_user_error(text: str) -> None:
+    with contextlib.suppress(UserError):
+        assert units(9.8).base_unit(text)
+
+
+@pytest.mark.parametrize(
+    ("raw", "expected"),
+    [
+        ("0.1 m", RawQuantity(0.1, "m")),
+        ("1e9ohm", RawQuantity(1e9, "ohm")),
+        (" -2.5e-3  ug/g^2 ", RawQuantity(-0.0025, "ug/g^2")),
+        ("3 1", RawQuantity(3.0, "1")),
+        ("0,1 m", RawQuantity(0.1, "m")),
+        ({"value": 3, "unit": "s"}, RawQuantity(3.0, "s")),
+        ({"value": [1, 2.5, 0, -4], "unit": "um"}, RawQuantity((1.0, 2.5, 0.0, -4.0), "um")),
+    ],
+)
+def test_quantities(raw: object, expected: RawQuantity) -> None:
+    assert read_quantity(raw, "", count=4) == expected
+
+
+@pytest.mark.parametrize(
+    ("raw", "what"),
+    [
+        (5, "unit is missing"),
+        ("5", "unit is missing"),
+        ({"value": 5, "unit": 3}, "unit is not a text"),
+        ({"value": 5, "unit": "m", "std": 1}, "not a quantity"),
+        ("m", "not a quantity"),
+        ("1.2.3 m", "not a quantity"),
+        (True, "not a quantity"),
+        ([1, 2, 3, 4], "not a quantity"),
+        ({"value": [1, 2, 3], "unit": "m"}, "wrong number of values"),
+        ({"value": [1, 2, 3, "4"], "unit": "m"}, "not a number"),
+        ({"value": math.nan, "unit": "m"}, "not finite"),
+        ({"value": [1, 2, math.inf, 4], "unit": "m"}, "not finite"),
+        ("1e999 m", "not finite"),
+        ("1 furlogn", "not a unit"),
+        ("1,234 m", "not a unit"),  # a thousand, or one?
+    ],
+)
+def test_what_is_no_quantity(raw: object, what: str) -> None:
+    with pytest.raises(UserError, match=what) as caught:
+        units(9.8).parse(read_quantity(raw, "f.toml: here", count=4).unit, "f.toml: here")
+    assert caught.value.where == "f.toml: here"
+    assert caught.value.found is not None
+
+
+def test_message_holds_every_fact_and_travels_between_processes() -> None:
+    error = UserError("wrong", where="here", found=3, expected="four", remedy="add one")
+    assert str(error) == "here: wrong\n  found: 3\n  expected: four\n  remedy: add one"
+    assert str(pickle.loads(pickle.dumps(error))) == str(error)

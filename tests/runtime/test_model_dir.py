@@ -1,4 +1,4 @@
-"""A model directory is in the old or in the new state, whatever happens in between."""
+"""A model directory is in the old or the new state, whatever happens; what is derived, compiled and executed of it, and of the user's."""
 
 from __future__ import annotations
 
@@ -7,17 +7,29 @@ import os
 import random
 import shutil
 import signal
+import stat
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import derive.effects as derive_effects
+from derive import pipeline
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import locked
+from ragg_runtime.estimation import observation
+from ragg_runtime.estimation.regressors import linearise, list_candidate_columns, make_point
+from ragg_runtime.instrument.model_toml import parse_instrument
+from ragg_runtime.model import chain as compiler
+from ragg_runtime.model import derive
 from ragg_runtime.model import directory as md
+from ragg_runtime.model.chain import _say_once
+from ragg_runtime.model.derive import effects
 from ragg_runtime.model.directory import (
     HistoryStep,
     ModelDir,
@@ -26,6 +38,9 @@ from ragg_runtime.model.directory import (
     load_model_dir,
     replace_model_dir,
 )
+from ragg_runtime.model.model import load_packaged, make_vector
+from ragg_runtime.reference.scenario import scenario
+from tests.generated import draws
 
 MODEL = """# state {n}
 effects = []
@@ -37,7 +52,6 @@ g0 = "9.8 m/s^2"
 K1 = "10 mA/g"
 k_VI = "1e9 ohm"
 """
-ROOT = Path(__file__).resolve().parents[2]
 NAMES = ["generated", "history.json", "model.toml"]
 
 
@@ -110,27 +124,23 @@ def test_a_change_that_was_cut_off_is_dropped_and_an_edit_by_hand_is_not(tmp_pat
     assert len(json.loads((first.path / "history.json").read_text())["steps"]) == 2
     toml.write_text(text_of(4) + "# mine\n")
     assert [s.effect for s in load_model_dir(first.path).history] == ["state-1", "state-4"]
+    with pytest.raises(UserError, match="changed in the meantime"):
+        change(made, 3)
 
 
 def test_a_calibration_saved_meanwhile_hinders_nobody_and_stays(tmp_path: Path) -> None:
     """As in a notebook: calibrate(m, flights, save=True), then add(m, effect, flights) with the same m."""
     first = make(tmp_path, 1)
     step = HistoryStep("calibrate", "2024-01-01T00:00:00Z")
-    for n in (1, 2):
-        replace_model_dir(
-            first,
-            first.text,
-            generated=code_of(1),
-            step=step,
-            calibration=f"{n}",
-        )
+    for kept in ("1", "2"):
+        replace_model_dir(first, first.text, generated=code_of(1), step=step, calibration=kept)
     found = change(first, 2)
     assert [x.action for x in found.history] == ["add", "calibrate", "calibrate", "add"]
     assert found.calibration == "2"
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork and SIGKILL")
-def test_killed_at_random_instants(tmp_path: Path) -> None:
+def test_a_reader_beside_a_writer_that_is_killed_sees_whole_states(tmp_path: Path) -> None:
     made = make(tmp_path, 1)
     chance = random.Random(20240101)
     seen = set()
@@ -143,7 +153,6 @@ def test_killed_at_random_instants(tmp_path: Path) -> None:
                 current = change(current, 1 + n % 12)
             os._exit(1)
         try:
-            # A reader beside the writer sees whole states only; the writer dies at any instant.
             deadline = time.monotonic() + 30
             while load_model_dir(made.path).digest == last and time.monotonic() < deadline:
                 state_number(load_model_dir(made.path))
@@ -179,14 +188,6 @@ def test_what_fails_leaves_not_a_trace(tmp_path: Path, monkeypatch: pytest.Monke
     assert entries(current.path) == NAMES
 
 
-@pytest.mark.parametrize("by", [text_of(2), text_of(1) + "# mine\n"])
-def test_a_stale_change_is_refused(tmp_path: Path, by: str) -> None:
-    first = make(tmp_path, 1)
-    (first.path / "model.toml").write_text(by)
-    with pytest.raises(UserError, match="changed in the meantime"):
-        change(first, 3)
-
-
 def test_links_are_replaced_not_followed(tmp_path: Path) -> None:
     """Whoever sends a model directory writes nowhere else by it."""
     current = make(tmp_path, 1)
@@ -202,15 +203,7 @@ def test_links_are_replaced_not_followed(tmp_path: Path) -> None:
     assert entries(tmp_path / "outside") == ["mine"]
 
 
-def test_the_lock_holds_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    current = make(tmp_path, 1)
-    monkeypatch.setattr(md, "_PATIENCE", 0.05)
-    with locked(current.path, 0.0), pytest.raises(UserError, match="another command"):
-        change(current, 2)
-    assert state_number(change(current, 2)) == 2
-
-
-def test_messages(tmp_path: Path) -> None:
+def test_messages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(UserError, match="no model directory"):
         load_model_dir(tmp_path / "none")
     with pytest.raises(UserError, match=r"model\.toml is missing"):
@@ -218,6 +211,9 @@ def test_messages(tmp_path: Path) -> None:
     made = make(tmp_path, 1)
     with pytest.raises(UserError, match="exists already"):
         make(tmp_path, 1)
+    monkeypatch.setattr(md, "_PATIENCE", 0.05)
+    with locked(made.path, 0.0), pytest.raises(UserError, match="another command"):
+        change(made, 2)
     whole = {"action": "add", "effect": "lag", "time": "now"}
     odd = ({"before": 3}, {"before": {"calibrated": [1]}}, {"after": {"rms_Eo": "many"}}, {"flights": ["a"]})
     steps = (json.dumps({"steps": [whole | step]}) for step in odd)
@@ -225,6 +221,174 @@ def test_messages(tmp_path: Path) -> None:
         (made.path / "history.json").write_text(bad)
         with pytest.raises(UserError, match="history is damaged"):
             load_model_dir(made.path)
+
+
+# --- what is executed: effects of packages and of the user's own folder, never generated/ of a model directory ---
+
+CUBIC = (Path(derive_effects.__file__).parent / "cubic_input.py").read_text("utf-8")
+EVIL = "\nimport pathlib\npathlib.Path({mark!r}).write_text('executed')\n"
+
+
+def mine(identifier: str) -> str:
+    return CUBIC.replace('id="cubic-input"', f'id="{identifier}"')
+
+
+def forget() -> None:
+    """What this process has derived and loaded so far."""
+    for known in (derive.derived, derive._load_installed, derive._execute_files):
+        known.cache_clear()
+
+
+@pytest.fixture(scope="module")
+def derived_once(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A model with an effect, and a cache of what was derived for it."""
+    place = tmp_path_factory.mktemp("derived")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CACHE_HOME", str(place / "cache"))
+        forget()
+        api.add(api.new(place / "model"), "gain-drift")
+    return place
+
+
+@pytest.fixture
+def model(derived_once: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of both for each test."""
+    shutil.copytree(derived_once, tmp_path, dirs_exist_ok=True)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    forget()
+    return tmp_path / "model"
+
+
+def test_effects_folder_is_refused_with_what_to_do(tmp_path: Path) -> None:
+    m = api.new(tmp_path / "model")
+    (tmp_path / "model" / "mine").mkdir()
+    (tmp_path / "model" / "mine" / "evil.py").write_text("raise SystemExit('executed')")
+    toml = tmp_path / "model" / "model.toml"
+    toml.write_text('effects_folder = "mine"\n' + m.directory.text)
+    with pytest.raises(UserError) as refused:
+        api.load(tmp_path / "model")
+    for text in (str(toml), "effects_folder", "'mine'", "RAGG_EFFECTS"):
+        assert text in refused.value.message
+
+
+def test_effects_of_the_folder_that_the_user_names(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    own = model.parent / "own"
+    own.mkdir()
+    (own / "mine.py").write_text(mine("mine"))
+    (own / "__init__.py").write_text("raise SystemExit('executed')")
+    with pytest.raises(UserError, match="unknown effect"):
+        api.add(api.load(model), "mine")
+    monkeypatch.setenv("RAGG_EFFECTS", str(own))
+    m = api.load(model)
+    assert "mine" in {e.id for e in m.model.candidates}
+    assert effects()["mine"]["title"] == effects()["cubic-input"]["title"]
+    m = api.add(m, "mine").loaded
+    assert [e.id for e in api.load(model).model.effects] == ["gain-drift", "mine"]
+    monkeypatch.delenv("RAGG_EFFECTS")
+    with pytest.raises(UserError, match="unknown effect"):
+        api.load(model)
+
+
+def test_an_effect_is_added_to_what_model_toml_states_of_it(tmp_path: Path) -> None:
+    """Of a body beside the instrument its place, which stays."""
+    place = 'effects = [{ id = "near-sphere", x = { value = 1.2, unit = "m", fixed = true } }]'
+    text = api.new(tmp_path / "model").directory.text
+    toml = tmp_path / "model" / "model.toml"
+    toml.write_text(text.replace("effects = []", place))
+    m = api.add(api.load(tmp_path / "model"), "near-sphere").loaded
+    assert [e.id for e in m.model.effects] == ["near-sphere"]
+    assert m.instrument.effects[0].fixed == {"x"}
+    toml.write_text(text.replace("effects = []", place.replace(" }]", ', M = "60 kg" }]')))
+    with pytest.raises(UserError, match="already in the model"):
+        api.add(api.load(tmp_path / "model"), "near-sphere")
+
+
+def test_effects_of_an_installed_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    package, info = tmp_path / "ragg_theirs", tmp_path / "ragg_theirs-1.dist-info"
+    package.mkdir()
+    info.mkdir()
+    (package / "__init__.py").write_text("")
+    (package / "power.py").write_text(mine("theirs"))
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: ragg-theirs\nVersion: 1\n")
+    (info / "entry_points.txt").write_text("[ragg.effects]\ntheirs = ragg_theirs.power\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    forget()
+    try:
+        assert [*derive.list_known(api.example())][-1] == "theirs"
+        assert "theirs" in {e.id for e in derive.load_model(api.example()).candidates}
+    finally:
+        for name in ("ragg_theirs", "ragg_theirs.power"):
+            sys.modules.pop(name, None)
+        forget()
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("EFFECT = 3", "defines no EFFECT"),
+        ("1 / 0", "ZeroDivisionError"),
+        ("raise SystemExit(3)", "SystemExit"),
+        (mine("lag"), "the id of your effect is taken"),
+        (None, "no folder of effects"),
+    ],
+)
+def test_an_effect_that_cannot_be_read_is_one_message(tmp_path, monkeypatch, text, said) -> None:
+    if text is not None:
+        (tmp_path / "own").mkdir()
+        (tmp_path / "own" / "mine.py").write_text(text)
+    monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path / "own"))
+    with pytest.raises(UserError, match=said):
+        derive.load_model(api.example())
+
+
+@pytest.mark.parametrize("damage", [None, "{", '{"chain.py": 3}'])
+def test_what_was_derived_is_not_derived_again_unless_it_is_damaged(model, monkeypatch, damage) -> None:
+    """And generated/ is for people to read: it is not executed."""
+    for file in (model.parent / "cache" / "ragg" / "derived").iterdir() if damage else ():
+        file.write_text(damage)
+    for name in ("chain.py", "digest"):
+        with (model / "generated" / name).open("a") as stream:
+            stream.write(EVIL.format(mark=str(model / "mark")))
+    count: list[int] = []
+    original = pipeline.derive_model
+    monkeypatch.setattr(pipeline, "derive_model", lambda *a: count.append(1) or original(*a))
+    m = api.load(model)
+    assert ([e.id for e in m.model.effects], count) == (["gain-drift"], [1] if damage else [])
+    assert not (model / "mark").exists()
+
+
+def test_generated_is_derived_anew_where_it_is_of_another_model(model: Path) -> None:
+    """As after a change by hand, or one that was cut off before this folder was in place."""
+    toml = model / "model.toml"
+    text = toml.read_text("utf-8")
+    toml.write_text(text.replace("order", "# order").replace('"full"', '"platform"'), "utf-8")
+    m = api.load(model)
+    assert "was not derived for this model.toml" in m.notes[0]
+    before = (model / "generated" / "digest").read_text()
+    m = api.add(m, "lag").loaded
+    assert m.notes == api.load(model).notes == ()
+    assert (model / "generated" / "digest").read_text() != before
+    assert "lag" in (model / "generated" / "chain.py").read_text("utf-8")
+
+
+def test_a_request_depends_on_all_that_is_derived(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = api.new(tmp_path / "model").directory.text
+    line = '{ id = "mine", stage = "transducer", add = "K * f_i**2", K = { unit = "ug/g^2" } }'
+    lists = [
+        '["gain-drift"]',
+        '["gain-drift", "cubic-input"]',
+        '["cubic-input", "gain-drift"]',
+        f"[{line}]",
+        f"[{line.replace('**2', '**3')}]",
+        f"[{line.replace('ug/g^2', 'mg/g^2')}]",
+        f"[{line.replace('unit =', 'shared = true, unit =')}]",
+    ]
+    found = {derive.request(parse_instrument(text.replace("effects = []", f"effects = {e}"))) for e in lists}
+    monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path))
+    for source in ("# 1\n", "# 2\n"):
+        (tmp_path / "a.py").write_text(source)
+        found.add(derive.request(parse_instrument(text)))
+    assert len(found) == len(lists) + 2
 
 
 def test_a_model_directory_is_not_imported_from(tmp_path: Path) -> None:
@@ -235,3 +399,97 @@ def test_a_model_directory_is_not_imported_from(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "ragg_runtime", "history", "."]
     done = subprocess.run(command, cwd=place, capture_output=True, text=True, check=False)
     assert (done.returncode, "executed" in done.stderr) == (0, False), done.stderr
+
+
+# --- machine code: equal to NumPy, and NumPy without a compiler ---
+
+needs_compiler = pytest.mark.skipif(
+    not any(shutil.which(c) for c in ("cc", "gcc", "clang")), reason="no C compiler is installed"
+)
+ONE = {"one.c": "int one(void) { return 1; }\n"}
+
+
+@pytest.fixture
+def compiling(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("RAGG_NATIVE", raising=False)
+    _say_once.cache_clear()
+
+
+@needs_compiler
+@pytest.mark.usefixtures("compiling")
+def test_fits_in_machine_code_are_those_in_numpy() -> None:
+    """But for rounding."""
+    s = scenario(63, duration=60.0)
+    flight = s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}).flight()
+    packaged, o = load_packaged(), observation.observe(flight, s.sheet)
+    without = {n: replace(getattr(packaged, n), sources={}) for n in ("chain", "signatures")}
+    c, n = (
+        linearise(make_point(m, s.sheet, make_vector(m, s.sheet), list_candidate_columns(m, s.sheet)), o)
+        for m in (packaged, replace(packaged, **without))
+    )
+    assert packaged.chain.library is not None
+    assert packaged.signatures.library is not None
+    size = np.max(np.abs(n), axis=2, keepdims=True)
+    assert np.sum(size > 0.0) > 150
+    assert np.all(np.abs(c - n) <= 1e-9 * size)
+
+
+@pytest.mark.usefixtures("compiling")
+def test_without_a_compiler_numpy_serves_and_says_so_once(monkeypatch, tmp_path, capsys) -> None:
+    draw = np.random.default_rng(40)
+    t, inputs, p = np.arange(20.0), draws.motion(draw, 20), draws.instrument(draw)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
+    assert compiler.find_compiler()[1:] == ["-m", "ziglang", "cc"]
+    monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
+    for chain in (replace(load_packaged().chain), replace(load_packaged().chain)):
+        assert np.all(np.isfinite(chain.output(t, inputs, p)))
+        assert chain.library is None
+    assert capsys.readouterr().err.count("slower NumPy code is used: there is no C compiler") == 1
+    monkeypatch.setenv("RAGG_NATIVE", "off")
+    assert replace(load_packaged().chain).library is None
+    assert capsys.readouterr().err == ""
+
+
+@needs_compiler
+def test_library_is_made_once_and_anew_when_anything_changes(tmp_path, monkeypatch) -> None:
+    first = compiler.build(ONE, tmp_path)
+    made = first.stat().st_mtime_ns
+    assert compiler.build(ONE, tmp_path) == first
+    assert first.stat().st_mtime_ns == made
+    assert compiler.build({"one.c": "int one(void) { return 2; }\n"}, tmp_path) != first
+    monkeypatch.setenv("CC", f"{compiler.find_compiler()[0]} -DX=1")
+    assert compiler.build(ONE, tmp_path) != first
+    monkeypatch.delenv("CC")
+    first.write_bytes(first.read_bytes()[:100])  # damaged: refused once, then made anew
+    with pytest.raises(compiler.BuildError, match="cannot be loaded"):
+        compiler.load(compiler.build(ONE, tmp_path))
+    compiler.load(compiler.build(ONE, tmp_path))
+
+
+@needs_compiler
+def test_a_cache_that_others_can_write_to_is_not_used(tmp_path: Path) -> None:
+    tmp_path.chmod(0o777)
+    made = compiler.build(ONE, tmp_path)
+    assert made.parent != tmp_path
+    assert stat.S_IMODE(made.parent.stat().st_mode) == 0o700
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a script of Unix")
+@pytest.mark.usefixtures("compiling")
+def test_a_compiler_that_hangs_or_fails_is_one_message(tmp_path: Path, monkeypatch) -> None:
+    """Its children hold the pipes open; it was waited for 304 s."""
+    script = tmp_path / "cc"
+    script.write_text("#!/bin/sh\nsleep 300 & sleep 300\n")
+    script.chmod(0o755)
+    monkeypatch.setattr(compiler, "PATIENCE", 1.0)
+    start = time.monotonic()
+    for cc in (str(script), '"unclosed', "gcc --no-such-option", "/", "/dev/null", "false"):
+        monkeypatch.setenv("CC", cc)
+        expected = "does not answer within 1 s" if cc == str(script) else None
+        with pytest.raises(compiler.BuildError, match=expected):
+            compiler.build(ONE, tmp_path / "cache")
+    assert time.monotonic() - start < 20
+    assert not list((tmp_path / "cache").glob(".*so"))

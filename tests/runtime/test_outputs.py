@@ -1,4 +1,4 @@
-"""What commands write: never over what they read, all of it before a model changes, with what made it, in the same bytes."""
+"""What commands say and write: one message whatever goes wrong, never over what they read, with what made it, in the same bytes."""
 
 from __future__ import annotations
 
@@ -10,19 +10,26 @@ import shlex
 import subprocess
 import sys
 import threading
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+import click
 import commands
 import numpy as np
 import pytest
 
 from ragg_runtime import api
-from ragg_runtime.cli.main import main
+from ragg_runtime.base import progress
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.cli.main import COMMANDS, cli, main
 from ragg_runtime.io import write_flight
+from ragg_runtime.report.pages import render_page
 from ragg_runtime.simulate import simulate_flight
+from ragg_runtime.wording.sections import Bar, Bars, Section
+from ragg_runtime.workspace import Source
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="devices, links and pipes of Unix")
 
@@ -32,9 +39,8 @@ def given(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     """A model directory with an effect, and a flight of 150 s."""
     place = tmp_path_factory.mktemp("outputs")
     m = api.new(place / "model")
-    write_flight(
-        simulate_flight(m.instrument, [], seed=3, duration=150.0, rate=8.0), place / "flight.parquet"
-    )
+    flight = simulate_flight(m.instrument, [], seed=3, duration=150.0, rate=8.0)
+    write_flight(flight, place / "flight.parquet")
     api.add(m, "thermal-scale")
     return place / "model", place / "flight.parquet"
 
@@ -44,18 +50,16 @@ def state(*places: Path) -> dict[str, bytes]:
     return {str(p): p.read_bytes() for p in files}
 
 
-def ragg(*arguments: object, redirect: str = "", cwd: Path | None = None) -> tuple[int, str]:
+def ragg(*arguments: object, redirect: str = "") -> tuple[int, str]:
     """Exit status and stderr of a command, its output redirected by a shell if that is asked for."""
-    if not redirect and cwd is None:
-        here = commands.ragg(*arguments)
-        assert "Traceback" not in here.stderr, here.stderr
-        return here.returncode, here.stderr
-    line = f'exec "$0" -m ragg_runtime "$@" {redirect}'
-    found = subprocess.run(
-        ["sh", "-c", line, sys.executable, *map(str, arguments)], capture_output=True, text=True, cwd=cwd
-    )
-    assert "Traceback" not in found.stderr, found.stderr
-    return found.returncode, found.stderr
+    done: subprocess.CompletedProcess[str]
+    if redirect:
+        line = ["sh", "-c", f'exec "$0" -m ragg_runtime "$@" {redirect}', sys.executable]
+        done = subprocess.run([*line, *map(str, arguments)], capture_output=True, text=True)
+    else:
+        done = commands.ragg(*arguments)
+    assert "Traceback" not in done.stderr, done.stderr
+    return done.returncode, done.stderr
 
 
 @pytest.mark.parametrize("how", ["report", "json", "stdout full", "stdout closed", "json full"])
@@ -71,9 +75,9 @@ def test_a_result_that_cannot_be_written_leaves_the_model_as_it_was(how, given, 
         "json full": (["--json", "/dev/full"], ""),
     }
     arguments, redirect = further[how]
-    command = (
-        ["add", model, "odd-quadratic", flight] if how == "report" else ["remove", model, "thermal-scale"]
-    )
+    command = ["add", model, "odd-quadratic", flight]
+    if how != "report":
+        command = ["remove", model, "thermal-scale"]
     status, said = ragg(*command, *arguments, redirect=redirect)
     assert status == 2, said
     assert said.count("ragg:") == 1
@@ -81,65 +85,34 @@ def test_a_result_that_cannot_be_written_leaves_the_model_as_it_was(how, given, 
     assert list(tmp_path.iterdir()) == []
 
 
-def test_streams_that_are_closed(given: tuple[Path, Path]) -> None:
+def test_nothing_is_written_over_what_is_read_or_over_a_model(given, tmp_path) -> None:
+    model, flight = given
+    os.link(flight, tmp_path / "hard-link")
+    (tmp_path / "sheet.csv").symlink_to(model / "model.toml")
+    files = [model / n for n in ("model.toml", "history.json", "calibration.json", "generated/manifest.json")]
+    compare, same = ("compare", model, flight), tmp_path / "x"
+    cases: list[tuple[tuple[object, ...], str]] = [
+        *(((*compare, "--json", f), "the result would overwrite") for f in (*files, flight)),
+        ((*compare, "--report", model / "mapping.toml"), "the result would overwrite"),
+        ((*compare, "--report", tmp_path / "hard-link"), "the result would overwrite"),
+        *((("effects", "lag", "--json", f), "overwrite a file of a model directory") for f in files[:2]),
+        (("compensate", model, flight, "-o", flight), "overwrite what the command reads"),
+        (("next-motion", model, flight, "-o", flight), "overwrite what the command reads"),
+        (("simulate", model, "--motion", flight, "-o", flight), "overwrite what the command reads"),
+        (("simulate", model, "-o", tmp_path / "sheet.csv"), "overwrite"),
+        ((*compare, "--json", same, "--report", same), "two results"),
+    ]
+    before = state(model, flight)
+    for words, expected in cases:
+        status, said = ragg(*words)
+        assert (status, expected in said) == (2, True), (words, said)
+        assert state(model, flight) == before
+
+
+def test_devices_pipes_and_closed_streams(given: tuple[Path, Path], tmp_path: Path) -> None:
+    model, _ = given
     for redirect, status in (("2>&-", 0), ("0<&- 1>&- 2>&-", 2)):
-        assert ragg("history", given[0], redirect=redirect)[0] == status
-
-
-FILES = ("model.toml", "history.json", "calibration.json", "mapping.toml", "generated/manifest.json")
-
-
-@pytest.mark.parametrize("over", ["flight", *FILES, "link"])
-@pytest.mark.parametrize("option", ["--json", "--report"])
-def test_nothing_is_written_over_what_is_read(option: str, over: str, given: tuple[Path, Path]) -> None:
-    model, flight = given
-    target = flight if over == "flight" else model / over
-    if over == "link":
-        target = model.parent / "hard-link"
-        target.unlink(missing_ok=True)
-        os.link(flight, target)
-    before = state(model, flight)
-    status, said = ragg("compare", model, flight, option, target)
-    assert status == 2, said
-    assert "the result would overwrite" in said
-    assert state(model, flight) == before
-
-
-def test_a_result_replaces_no_file_of_another_model(given: tuple[Path, Path], tmp_path: Path) -> None:
-    """Of commands that know no model, too."""
-    model, _ = given
-    before = state(model)
-    for name in ("model.toml", "history.json"):
-        status, said = ragg("effects", "lag", "--json", model / name)
-        assert status == 2, said
-        assert "overwrite a file of a model directory" in said
-    assert state(model) == before
-
-
-@pytest.mark.parametrize("command", ["compensate", "next-motion", "simulate"])
-def test_a_series_is_not_written_over_what_is_read(command: str, given: tuple[Path, Path]) -> None:
-    model, flight = given
-    before = state(model, flight)
-    read = ["--motion", flight] if command == "simulate" else [flight]
-    status, said = ragg(command, model, *read, "-o", flight)
-    assert status == 2, said
-    assert "overwrite what the command reads" in said
-    assert state(model, flight) == before
-
-
-def test_two_results_do_not_share_a_file_and_a_flight_is_not_flown_over_its_model(given, tmp_path) -> None:
-    model, flight = given
-    status, said = ragg("compare", model, flight, "--json", tmp_path / "x", "--report", tmp_path / "x")
-    assert (status, "two results" in said) == (2, True)
-    sheet = tmp_path / "sheet.csv"
-    sheet.symlink_to(model / "model.toml")
-    before = state(model)
-    assert ragg("simulate", model, "-o", sheet)[0] == 2
-    assert state(model) == before
-
-
-def test_devices_and_pipes_are_written_to(given: tuple[Path, Path], tmp_path: Path) -> None:
-    model, _ = given
+        assert ragg("history", model, redirect=redirect)[0] == status
     assert ragg("history", model, "--json", "/dev/null")[0] == 0
     assert Path("/dev/null").is_char_device()
     pipe = tmp_path / "pipe"
@@ -167,35 +140,30 @@ def json_of(arguments: Sequence[str], folder: Path, monkeypatch: pytest.MonkeyPa
     return json.loads(text), text
 
 
-@pytest.mark.parametrize(
-    "arguments", [["compare", "model", "flight.parquet"], ["effects", "lag"]], ids=" ".join
-)
-def test_a_result_names_what_made_it(given, monkeypatch, arguments) -> None:
-    place = given[0].parent
+def sha256(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def test_a_result_names_what_made_it(given, monkeypatch) -> None:
+    place, arguments = given[0].parent, ["compare", "model", "flight.parquet"]
     found, text = json_of(arguments, place, monkeypatch)
     made = found["provenance"]
     assert made["python"] == "{}.{}.{}".format(*sys.version_info)
-    assert {n: made[n] for n in ("numpy", "scipy", "sympy")} == {
-        n: version(n) for n in ("numpy", "scipy", "sympy")
-    }
+    assert [made[n] for n in ("numpy", "scipy", "sympy")] == [version(n) for n in ("numpy", "scipy", "sympy")]
     assert made["command"] == shlex.join(["ragg", *arguments, "--json", "result.json"])
-    if "model" in arguments:
-        digest = hashlib.sha256((place / "model" / "model.toml").read_bytes()).hexdigest()
-        assert (made["model"], made["model_digest"]) == ("model", digest)
-    if "flight.parquet" in arguments:
-        digest = hashlib.sha256((place / "flight.parquet").read_bytes()).hexdigest()
-        assert made["flights"] == [{"path": "flight.parquet", "digest": digest}]
-        assert not DAY.search(text), "a result of today is no other than one of tomorrow"
+    assert (made["model"], made["model_digest"]) == ("model", sha256(place / "model" / "model.toml"))
+    assert made["flights"] == [{"path": "flight.parquet", "digest": sha256(place / "flight.parquet")}]
+    assert not DAY.search(text), "a result of today is no other than one of tomorrow"
     assert json_of(arguments, place, monkeypatch)[1] == text
 
 
-def test_a_change_names_the_state_before_and_after(given, monkeypatch, tmp_path) -> None:
+def test_a_change_names_the_state_before_and_after(monkeypatch, tmp_path) -> None:
     api.new(tmp_path / "model")
     toml = tmp_path / "model" / "model.toml"
-    digests = [hashlib.sha256(toml.read_bytes()).hexdigest()]
+    digests = [sha256(toml)]
     for arguments in (["add", "model", "lag"], ["remove", "model", "lag"]):
         made = json_of(arguments, tmp_path, monkeypatch)[0]["provenance"]
-        digests.append(hashlib.sha256(toml.read_bytes()).hexdigest())
+        digests.append(sha256(toml))
         assert [made["model_digest_before"], made["model_digest"]] == digests[-2:]
     assert digests[0] == digests[2] != digests[1]
 
@@ -215,3 +183,99 @@ def test_the_same_result_on_any_number_of_threads(given, monkeypatch) -> None:
         assert (first["verdict"], first["found"]) == (second["verdict"], second["found"])
         errors = [[r["error_after"]["rms_Eo"] for r in x["ranking"]] for x in (first, second)]
         np.testing.assert_allclose(errors[0], errors[1], rtol=1e-3)
+
+
+# --- one message ---
+
+
+def refused(*words: object, capsys: pytest.CaptureFixture[str]) -> str:
+    """What a command that ends with status 2 says."""
+    with pytest.raises(SystemExit) as end:
+        main(list(map(str, words)))
+    assert end.value.code == 2
+    return capsys.readouterr().err
+
+
+def test_every_refusal_of_the_system_names_its_place(given, capsys, monkeypatch) -> None:
+    def refuses(*_: object) -> None:
+        raise OSError(40, "Too many levels of symbolic links", "/some\n/where")
+
+    monkeypatch.setattr(api, "load", refuses)
+    said = refused("compare", given[0], "f.csv", capsys=capsys)
+    assert said == "ragg: /some\\n/where: Too many levels of symbolic links\n"
+
+
+def test_a_missing_extra_ends_in_what_to_install(tmp_path, monkeypatch, capsys) -> None:
+    monkeypatch.setitem(sys.modules, "h5py", None)
+    (tmp_path / "flight.h5").write_bytes(b"\x89HDF\r\n\x1a\n")
+    said = refused("convert", tmp_path / "flight.h5", tmp_path / "flight.csv", capsys=capsys)
+    assert "pip install 'ragg[files]'" in said
+
+
+def test_a_page_without_matplotlib_says_so_where_a_figure_would_be(monkeypatch) -> None:
+    for name in [n for n in sys.modules if n.startswith(("matplotlib", "ragg_runtime.report.plots"))]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    figure = Bars("b", "label", "caption", (Bar("x", 1.0),), "axis")
+    sections = [Section("verdict"), Section("more", plots=(figure,))]
+    page = render_page("kind", sections, Source("ragg", title="t"))
+    assert "pip install &#x27;ragg[plots]&#x27;" in page
+    assert "<svg" not in page
+
+
+@pytest.mark.parametrize(("option", "value"), [("--duration", "nan"), ("--noise", "inf")])
+def test_a_number_must_be_one(option, value, tmp_path, capsys) -> None:
+    words = ("simulate", tmp_path / "m", "-o", tmp_path / "x.csv", option, value)
+    assert "not a finite number" in refused(*words, capsys=capsys)
+
+
+def flown(**asked: Any) -> Callable[[Path], object]:
+    return lambda _: simulate_flight(api.example(), [], **({"duration": 20.0, "rate": 8.0} | asked))
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (lambda p: (os.mkfifo(p / "pipe"), api.new(p / "m", p / "pipe")), "not a pipe or a device"),
+        (lambda p: api.new(p / "m", Path("/dev/zero")), "not a pipe or a device"),
+        (flown(duration=1e18), "too long to be simulated"),
+        (flown(noise=1e308), "values are not finite"),
+        (flown(sheet_error=1e300), "values are not finite"),
+        (flown(spin=["1e300"]), "values are not finite"),
+        (flown(spin=["0.25,0.1@1e300"]), "values are not finite"),
+    ],
+)
+def test_what_never_ends_or_exceeds_all_numbers_is_refused(asked, said: str, tmp_path: Path) -> None:
+    with pytest.raises(UserError, match=said):
+        asked(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("passes", "pause", "last"),
+    [
+        ([0.05] * 10, 12.0, "... 50 % done, about 120 s left"),
+        ([1.0] * 2, 300.0, "... 600 s so far, longer than estimated"),
+        ([0.1], 1.0, ""),  # a short command
+    ],
+)
+def test_lines_tell_share_and_time_left(passes, pause, last, monkeypatch, capsys) -> None:
+    now = [100.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    with progress.shown("diagnose", 1000):
+        for share in passes:
+            now[0] += pause
+            progress.step(progress.PASSES["diagnose"] * 1000 * share)
+    assert ["", *capsys.readouterr().err.splitlines()][-1] == last
+    progress.step(1.0)  # nobody listens any more
+    assert capsys.readouterr().err == ""
+
+
+def test_no_summary_is_cut_off() -> None:
+    context = click.Context(cli)
+    for name in COMMANDS:
+        command = cli.get_command(context, name)
+        assert command is not None
+        assert command.get_short_help_str(1000) == command.get_short_help_str(60), name
+    shown = cli.get_help(context)
+    assert "\n  derive " not in shown
+    assert [x for x in ("Model:", "Flights:", "After:", "Tools:") if x not in shown] == []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gzip
 import os
 import sys
-from datetime import datetime, timedelta
+from datetime import UTC, datetime, timedelta
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
@@ -42,6 +42,11 @@ def text(head: str, cells: list[list[Any]], delimiter: str = ",", end: str = "\n
         for r in cells
     ]
     return head + end + end.join(lines) + end
+
+
+def mapped(path: Path) -> Any:
+    """As ``ragg map`` describes the file."""
+    return parse_mapping(draft_mapping(path).text, path)
 
 
 def same(found: Any, instants: bool = False) -> None:
@@ -179,7 +184,7 @@ def test_dates_as_people_write_them(tmp_path: Path, kind: str) -> None:
     made = draft_mapping(tmp_path / "x.csv")
     assert not made.questions, made.text
     if "days" not in kind:
-        same(read_flight(tmp_path / "x.csv", G0, mapping=parse_mapping(made.text, tmp_path)), instants)
+        same(read_flight(tmp_path / "x.csv", G0, mapping=mapped(tmp_path / "x.csv")), instants)
 
 
 def test_a_second_of_almost_60_is_no_leap_second(tmp_path: Path) -> None:
@@ -197,23 +202,26 @@ def test_a_second_of_almost_60_is_no_leap_second(tmp_path: Path) -> None:
 
 def test_a_date_of_two_meanings_is_asked_for(tmp_path: Path) -> None:
     path = tmp_path / "x.csv"
-    path.write_text(
-        text("when," + PLAIN.partition(",")[2], rows(stamps("2026-03-01 10:00:00", "%m/%d/%Y %H:%M:%S.%f")))
-    )
+    times = stamps("2026-03-01 10:00:00", "%m/%d/%Y %H:%M:%S.%f")
+    path.write_text(text("when," + PLAIN.partition(",")[2], rows(times)))
     made = draft_mapping(path)
     assert 'format = "?"' in made.text and "d/m/y" in made.questions[0]
-    for form, day in (("d/m/y", 3), ("m/d/y", 1), ("mm/dd/yyyy", 1), ("%d/%m/%Y %H:%M:%S.%f", 3)):
-        mapping = parse_mapping(made.text.replace('"?"', f'"{form}"'), tmp_path)
-        (found,) = read_recordings(path, mapping)
-        assert (
-            found.origin == datetime.fromisoformat(f"2026-{4 - day:02d}-{day:02d}T00:00:00+00:00") or day == 1
-        )
-    path.write_text(path.read_text().replace("when", "time", 1))
-    with pytest.raises(UserError, match=r"day/month or month/day[^$]*03/01/2026[^$]*format"):
-        read_flight(path, G0)
-    path.write_text(path.read_text().replace("03/01/2026 10:00:01.0", "03/01/2026 10h00m01", 1))
-    with pytest.raises(UserError, match=r"cannot be read[^$]*line 18: '03/01/2026 10h00m01"):
-        read_flight(path, G0)
+    march, january = datetime(2026, 3, 1, tzinfo=UTC), datetime(2026, 1, 3, tzinfo=UTC)
+    for form, day in (
+        ("d/m/y", january),
+        ("m/d/y", march),
+        ("mm/dd/yyyy", march),
+        ("%d/%m/%Y %H:%M:%S.%f", january),
+    ):
+        (found,) = read_recordings(path, parse_mapping(made.text.replace('"?"', f'"{form}"'), tmp_path))
+        assert found.origin == day
+    for old, new, said in (
+        ("when", "time", r"day/month or month/day[^$]*03/01/2026[^$]*format"),
+        ("10:00:01.0", "10h00m01", r"cannot be read[^$]*line 18: '03/01/2026 10h00m01"),
+    ):
+        path.write_text(path.read_text().replace(old, new, 1))
+        with pytest.raises(UserError, match=said):
+            read_flight(path, G0)
 
 
 def test_excel_as_people_write_it(tmp_path: Path) -> None:
@@ -222,28 +230,23 @@ def test_excel_as_people_write_it(tmp_path: Path) -> None:
         ["time", "a [g]", None, None, "omega [deg/h]", None, None, "G_out [V]"],
         [None, *"xyzxyz", None],
     ]
-    day = datetime(2026, 3, 1)
-    for k, (times, instants) in enumerate(
-        (
-            ([timedelta(hours=23, minutes=59, seconds=58 + t) for t in VALUES["time"]], False),
-            ([(day + timedelta(hours=10, seconds=t)).time() for t in VALUES["time"]], True),
-            ([day + timedelta(hours=10, seconds=t) for t in VALUES["time"]], True),
-            ([datetime(1900, 1, 1, 10) + timedelta(seconds=t) for t in VALUES["time"]], False),
-        )
+    path, every = tmp_path / "x.xlsx", [timedelta(seconds=float(t)) for t in VALUES["time"]]
+    noon, of_1900 = datetime(2026, 3, 1, 23, 59, 58), datetime(1900, 1, 1, 10)
+    for times, instants in (
+        ([timedelta(hours=23, minutes=59, seconds=58) + t for t in every], False),
+        ([(noon + t).time() for t in every], True),
+        ([noon + t for t in every], True),
+        ([of_1900 + t for t in every], False),
     ):
-        write_sheets(tmp_path / f"{k}.xlsx", {"a": [["of a survey"], *merged, *rows(times)]})
-        read = read_flight(tmp_path / f"{k}.xlsx", G0)
+        write_sheets(path, {"a": [["of a survey"], *merged, *rows(times)]})
+        read = read_flight(path, G0)
         assert read.instants == instants
         # openpyxl rounds to milliseconds
         assert read.time - read.time[0] == pytest.approx(VALUES["time"], abs=6e-4)
         assert read.channels["a_y"] == pytest.approx(VALUES["a_y"] * G0)
-
-
-def test_dates_and_times_in_two_columns_of_a_sheet(tmp_path: Path) -> None:
-    every = [datetime(2026, 3, 1, 23, 59, 58) + timedelta(seconds=float(t)) for t in VALUES["time"]]
-    cells = [[t.date(), t.time(), *r[1:]] for t, r in zip(every, rows(), strict=True)]
-    path = write_sheets(tmp_path / "x.xlsx", {"a": [["Date", "Time", *HEADER[1:]], *cells]})
-    found = read_flight(path, G0, mapping=parse_mapping(draft_mapping(path).text, tmp_path))
+    cells = [[(noon + t).date(), (noon + t).time(), *r[1:]] for t, r in zip(every, rows(), strict=True)]
+    write_sheets(path, {"a": [["Date", "Time", *HEADER[1:]], *cells]})
+    found = read_flight(path, G0, mapping=mapped(path))
     assert np.diff(found.time) == pytest.approx(1 / RATE, abs=6e-4) and found.instants
 
 
@@ -386,51 +389,40 @@ def test_what_is_in_memory_is_compared(tmp_path: Path) -> None:
 
 
 def test_a_map_is_written_whatever_is_odd(tmp_path: Path) -> None:
-    with h5py.File(tmp_path / "x.h5", "w") as file:
+    path = tmp_path / "x.h5"
+    with h5py.File(path, "w") as file:
         for n, v in VALUES.items():
             file[f"imu/{n}"] = v
             file[f"imu/{n}"].attrs["units"] = UNITS[n]
         file["imu/names"] = np.array([b"a"] * N)
         file["other/time"], file["other/x"] = np.arange(5.0), np.arange(5.0)
-    made = draft_mapping(tmp_path / "x.h5")
+    made = draft_mapping(path)
     assert 'part = "/imu"' in made.text and "no numbers" in made.text
-    same(read_flight(tmp_path / "x.h5", G0, mapping=parse_mapping(made.text, tmp_path)))
-    kinds = text(
-        "LINE," + PLAIN, [[1010 if k < 20 else 1020 if k < 40 else "T9010", *r] for k, r in enumerate(rows())]
-    )
-    (tmp_path / "x.csv").write_text(kinds + "," * 8 + "\n" + "," + "0," * 7 + "0\n")
-    made = draft_mapping(tmp_path / "x.csv")
-    found = read_recordings(tmp_path / "x.csv", parse_mapping(made.text, tmp_path))
+    same(read_flight(path, G0, mapping=mapped(path)))
+    path, lines = tmp_path / "x.csv", [1010] * 20 + [1020] * 20 + ["T9010"] * (N - 20 - 20)
+    kinds = text("LINE," + PLAIN, [[n, *r] for n, r in zip(lines, rows(), strict=True)])
+    path.write_text(kinds + "," * 8 + "\n" + "," + "0," * 7 + "0\n")
+    found = read_recordings(path, mapped(path))
     assert [r.line for r in found] == ["1010", "1020", "T9010"]
     assert any("2 rows without the name of a line left out" in n for n in found[0].notes)
 
 
 def test_a_map_of_names_in_groups_and_with_units(tmp_path: Path) -> None:
     """Channels of TDMS keep the names of their groups; many people write units at the end of a name, and text for numbers."""
+    path = tmp_path / "x.parquet"
     names = [f"/'Untitled'/'{n}_{u}'" if u != "deg/h" else f"/'imu'/'{n}_dph'" for n, u in UNITS.items()]
-    pd.DataFrame({n: v.astype(str) for n, v in zip(names, VALUES.values(), strict=True)}).to_parquet(
-        tmp_path / "x.parquet"
-    )
-    made = draft_mapping(tmp_path / "x.parquet")
+    pd.DataFrame({n: v.astype(str) for n, v in zip(names, VALUES.values(), strict=True)}).to_parquet(path)
+    made = draft_mapping(path)
     assert not made.questions and not made.notes, made
-    same(read_flight(tmp_path / "x.parquet", G0, mapping=parse_mapping(made.text, tmp_path)))
-    names = [
-        "__time.s",
-        *(f"/imu/linear_acceleration/{k}.g" for k in "xyz"),
-        *(f"imu.gyroscope.{k} [deg/h]" for k in "xyz"),
-        "G_out.V",
-    ]
-    (tmp_path / "x.csv").write_text(text(",".join(names), rows()))
-    same(
-        read_flight(
-            tmp_path / "x.csv", G0, mapping=parse_mapping(draft_mapping(tmp_path / "x.csv").text, tmp_path)
-        )
-    )
-    (tmp_path / "x.csv").write_text(text("X_Value,u,v", [[*r[:3]] for r in rows()]))
-    made = draft_mapping(tmp_path / "x.csv")
-    assert (
-        "[time]: unit of 'X_Value'" in made.questions[0] and "no column is recognised as a_x" in made.notes[0]
-    )
+    same(read_flight(path, G0, mapping=mapped(path)))
+    path, a = tmp_path / "x.csv", [f"/imu/linear_acceleration/{k}.g" for k in "xyz"]
+    names = ["__time.s", *a, *(f"imu.gyroscope.{k} [deg/h]" for k in "xyz"), "G_out.V"]
+    path.write_text(text(",".join(names), rows()))
+    same(read_flight(path, G0, mapping=mapped(path)))
+    path.write_text(text("X_Value,u,v", [[*r[:3]] for r in rows()]))
+    made = draft_mapping(path)
+    assert "[time]: unit of 'X_Value'" in made.questions[0]
+    assert "no column is recognised as a_x" in made.notes[0]
 
 
 def test_a_file_name_that_is_no_unicode(tmp_path: Path) -> None:
@@ -463,23 +455,13 @@ def test_a_table_larger_than_memory_is_refused(tmp_path: Path, monkeypatch: pyte
 def test_what_a_file_holds(tmp_path: Path) -> None:
     kept = [r for k, r in enumerate(rows()) if k not in (20, 21, 40)]
     (tmp_path / "x.csv").write_text(text(PLAIN + ",fuel", [[*r, 1.5] for r in kept]))
-    found = describe_flight(tmp_path / "x.csv")
-    (record,) = found["records"]
-    assert (record["rows"], record["rate_Hz"], record["gap_count"], record["missing"]) == (
-        N - 3,
-        pytest.approx(RATE),
-        2,
-        3,
-    )
+    (record,) = describe_flight(tmp_path / "x.csv")["records"]
+    assert (record["rows"], record["gap_count"], record["missing"]) == (N - 3, 2, 3)
+    assert record["rate_Hz"] == pytest.approx(RATE)
     assert (record["gaps"][0]["from_s"], record["gaps"][0]["samples"]) == (19 / RATE, 2)
     assert record["refused"] is not None and "'fuel'" in record["refused"]
-    assert record["columns"][-1] == {
-        "name": "fuel",
-        "unit": "",
-        "samples": 57,
-        "missing": 0,
-        **dict.fromkeys(("minimum", "maximum", "mean"), 1.5),
-    }
+    fuel = {"name": "fuel", "unit": "", "samples": 57, "missing": 0}
+    assert record["columns"][-1] == fuel | dict.fromkeys(("minimum", "maximum", "mean"), 1.5)
     (tmp_path / "x.csv").write_text(text(PLAIN, kept))
     (record,) = describe_flight(tmp_path / "x.csv")["records"]
     assert record["refused"] is None and any("2 gaps" in n for n in record["notes"])

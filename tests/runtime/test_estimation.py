@@ -1,0 +1,331 @@
+"""Noise of short and of uneven records, its level, lines and jumps that are none; the minimiser finds minima and says if it has not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import mpmath
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy import optimize, signal
+from scipy.linalg import toeplitz
+
+from ragg_runtime.estimation import calibration, observation
+from ragg_runtime.estimation.least_squares import SETTLED, VALLEY, Linear, is_settled, minimise
+from ragg_runtime.estimation.noise import describe_level, estimate_level
+from ragg_runtime.estimation.residual import describe_disturbances, find_lines, fit_columns
+from ragg_runtime.estimation.scores import log_sf_f
+from ragg_runtime.estimation.spectrum import LOWEST, Stretch, cut_lines, estimate
+from ragg_runtime.estimation.unknown_gradient import make_splines
+from ragg_runtime.io import Flight
+from ragg_runtime.model import model
+from ragg_runtime.model.record import Record
+from ragg_runtime.reference.scenario import scenario
+from ragg_runtime.signals.fir import fill_gaps
+
+Array = NDArray[np.float64]
+
+RATE = 16.0
+N, LONG = 4800, 10240
+ALL = np.ones(N, dtype=bool)
+
+
+def powers(count: int) -> Array:
+    """(count, N): slow columns."""
+    return np.linspace(-1.0, 1.0, N) ** np.arange(count)[:, None]
+
+
+def mean_of(found: list[Array]) -> Array:
+    return np.asarray(np.exp(np.mean(np.log(found), axis=0)))
+
+
+# --- density, lines, jumps ---
+
+
+def test_what_columns_take_of_the_noise_is_no_quiet() -> None:
+    """White noise of a minute, fitted by 80 slow columns: its density below 1 Hz came out three times too small."""
+    found = []
+    for seed in range(12):
+        rng = np.random.default_rng(seed)
+        slow = np.fft.rfft(rng.normal(size=(80, 960)))
+        slow[:, np.fft.rfftfreq(960, 1 / RATE) > 1.0] = 0.0
+        flat = np.vstack([np.fft.irfft(slow, 960), rng.normal(size=960)])
+        left = fit_columns(flat, np.ones(960, dtype=bool), RATE, None)
+        assert left.rank == pytest.approx(80)
+        found.append(estimate([Stretch(left.rest, RATE, left.kept)]).psd(np.array([0.2, 0.5, 4.0])))
+        blind = estimate([Stretch(left.rest, RATE)]).psd(np.array([0.5]))
+    assert mean_of(found) == pytest.approx(2 / RATE, rel=0.25)
+    assert blind[0] < 0.5 * 2 / RATE
+
+
+def test_noise_about_the_carrier_is_resolved() -> None:
+    """Five times the density, 0.1 Hz wide, at twice the spin rate; where there is none the spectrum stays smooth."""
+    f = np.fft.rfftfreq(9600, 1 / RATE)
+    for size, expected in ((4.0, 5.0), (0.0, 1.0)):
+        found = []
+        for seed in range(6):
+            x = np.fft.rfft(np.random.default_rng(seed).normal(size=9600))
+            x *= np.sqrt(1.0 + size * np.exp(-0.5 * ((f - 0.5) / 0.05) ** 2))
+            spectrum = estimate([Stretch(np.fft.irfft(x, 9600)[:N], RATE)], spin=0.25)
+            found.append(spectrum.psd(np.array([0.5, 0.8])) * RATE / 2)
+        assert mean_of(found) == pytest.approx([expected, 1.0], rel=0.4)
+
+
+def test_a_jump_to_which_slow_columns_bend_is_found() -> None:
+    y = np.random.default_rng(5).normal(size=N) + 2.0 * (np.arange(N) / RATE >= 113.0)
+    left = fit_columns(np.vstack([powers(9), y]), ALL, RATE, None)
+    assert [d.kind for d in left.found] == ["jump"]
+    assert left.found[0].at == pytest.approx(113.0, abs=1.0)
+    assert np.std(left.rest) == pytest.approx(1.0, rel=0.05)
+    assert "jumps at 113 s" in str(describe_disturbances(left.found))
+
+
+def test_a_jump_beside_an_unknown_gradient_leaves_nothing_of_its_edge() -> None:
+    """What was projected out of the data, not of the jump's own column, passed for further jumps and for noise."""
+    time = np.arange(N) / RATE
+    phase = np.pi * time  # twice the spin rate
+    Q = np.linalg.qr(make_splines(time, np.cos(phase), np.sin(phase)).T)[0]
+
+    def through(columns: Array) -> Array:
+        return np.asarray(columns - (columns @ Q) @ Q.T)
+
+    y = np.random.default_rng(6).normal(size=N) + 30.0 * (time >= 113.0)
+    left = fit_columns(through(np.vstack([np.ones(N), y])), ALL, RATE, (0.44, 0.56), through)
+    assert [(d.kind, d.at) for d in left.found] == [("jump", 113.0)]
+    assert np.std(left.rest) == pytest.approx(1.0, rel=0.03)
+
+
+def noise(seed: int, slope: float = 0.0) -> Array:
+    f = np.fft.rfftfreq(LONG, 1 / RATE)
+    shape = np.sqrt(1.0 + (slope > 0) * (0.05 / np.maximum(f, f[1])) ** slope)
+    return np.asarray(
+        np.fft.irfft(np.fft.rfft(np.random.default_rng(seed).standard_normal(LONG)) * shape, LONG)
+    )
+
+
+@pytest.mark.parametrize("slope", [0.0, 1.0, 2.0])
+def test_noise_is_left_as_it_is(slope: float) -> None:
+    for seed in range(12):
+        x = noise(seed, slope)
+        _, p = signal.periodogram(x, RATE, window="hann", detrend="constant")
+        assert np.array_equal(cut_lines(p[LOWEST:-1]), p[LOWEST:-1])
+        assert find_lines(x, RATE, None) == []
+        if slope < 2.0:
+            assert not fit_columns(np.stack([np.ones(LONG), x]), np.ones(LONG, dtype=bool), RATE, None).found
+
+
+def test_a_gap_holds_what_the_noise_makes_most_likely() -> None:
+    pole, n = 0.95, 400
+    C = toeplitz(pole ** np.arange(n))
+    x = np.linalg.cholesky(C) @ np.random.default_rng(4).normal(size=n)
+    there = np.ones(n, dtype=bool)
+    there[[20, 90, 91, *range(200, 230)]] = False
+    filled = fill_gaps((x * there)[None], there, np.array([1.0, -pole, 0.0]))[0]
+    best = C[np.ix_(~there, there)] @ np.linalg.solve(C[np.ix_(there, there)], x[there])
+    assert filled[~there] == pytest.approx(best, abs=1e-6)
+    np.testing.assert_array_equal(filled[there], x[there])
+
+
+# --- the level ---
+
+
+def quantities(rng: np.random.Generator) -> dict[str, Array]:
+    force = np.abs(rng.normal(size=N))
+    return {"time": np.arange(N) / RATE, "abs(a_x)": force, "phi": np.mod(np.arange(N) * 0.1, 2 * np.pi)}
+
+
+def test_even_noise_has_no_level_even_if_its_tails_are_heavy() -> None:
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        x = quantities(rng)
+        assert not estimate_level(rng.normal(size=N), x, {}).parts
+        assert not estimate_level(rng.standard_t(3, size=N), x, {}).parts
+
+
+@pytest.mark.parametrize("name", ["time", "abs(a_x)", "phi"])
+def test_the_level_is_found_and_undone(name: str) -> None:
+    rng = np.random.default_rng(7)
+    x = quantities(rng)
+    loud = {
+        "time": np.where(x["time"] > 100.0, 10.0, 1.0),
+        "abs(a_x)": 0.2 + x["abs(a_x)"],
+        "phi": 1.0 + 0.8 * np.cos(2 * x["phi"]),
+    }[name]
+    level = estimate_level(loud * rng.normal(size=N), x, {})
+    assert level.parts[0].name == name
+    found = level.of(x.__getitem__)
+    assert np.mean(found**2) == pytest.approx(1.0)
+    assert np.std(found / loud) < 0.2 * np.mean(found / loud)
+    assert "level changes" in str(describe_level(level))
+
+
+def test_what_a_random_effect_explains_best_is_left_to_its_test() -> None:
+    """Not so noise in proportion to the force along the input axes, or one, though the angle's jitter is louder where that is."""
+    rng = np.random.default_rng(9)
+    (x, y), phi = rng.normal(size=(2, N)), np.arange(N) * 0.1
+    across, along = np.abs(y * np.cos(phi) - x * np.sin(phi)), np.abs(x * np.cos(phi) + y * np.sin(phi))
+    known = {**quantities(rng), "input-rms": np.hypot(x, y), "input": across + along}
+    known |= {"input(0)": across, "input(2)": along}
+    jitter = (0.8 * along + 0.3 * across) ** 2
+    for loud, names in (
+        (np.hypot(0.2 + across, 0.2 + along), ("input-rms", "input")),
+        (0.2 + along, ("input(2)",)),
+    ):
+        assert estimate_level(loud * rng.normal(size=N), known, {"jitter": jitter}).parts[0].name in names
+    few = quantities(rng)
+    share = (few["abs(a_x)"] * np.cos(few["phi"])) ** 2
+    assert not estimate_level(np.sqrt(0.1 + share) * rng.normal(size=N), few, {"jitter": share}).parts
+
+
+def test_the_level_may_follow_the_length_of_a_vector() -> None:
+    omega = np.random.default_rng(4).normal(size=(3, 50))
+    wide = {f"omega_{k}": x for k, x in zip("xyz", omega, strict=True)}
+    r = Record(np.arange(50.0), wide, 1.0, np.ones(50, dtype=np.bool_), 0.0)
+    assert r.quantity("abs(omega)") == pytest.approx(np.linalg.norm(omega, axis=0))
+
+
+@pytest.mark.parametrize(("ratio", "d1", "d2"), [(9.0, 2.0, 400.0), (1e4, 24.0, 4800.0), (3e6, 576.0, 1.2e5)])
+def test_tails_beyond_all_floats_are_known(ratio: float, d1: float, d2: float) -> None:
+    """Logarithm of the F distribution's tail, against the regularised incomplete beta function in 60 digits."""
+    with mpmath.workdps(60):
+        x = mpmath.mpf(d2) / (d2 + d1 * mpmath.mpf(ratio))
+        expected = mpmath.log(mpmath.betainc(mpmath.mpf(d2) / 2, mpmath.mpf(d1) / 2, 0, x, regularized=True))
+    assert log_sf_f(ratio, d1, d2) == pytest.approx(float(expected), rel=1e-3)
+
+
+# --- of flights ---
+
+SIZE = 4.0 * 1.6e-3
+"""V: four times the noise of a flight."""
+
+
+def calibrated(
+    further: Callable[[Flight], Array], duration: float, **options: bool
+) -> calibration.Calibration:
+    """The calibration of a flight whose output has this as well."""
+    s = scenario(12, duration=duration, rate=RATE)
+    flight = s.simulate().flight()
+    flight = replace(flight, outputs={n: x + further(flight) for n, x in flight.outputs.items()})
+    return calibration.fit(model.load_packaged(), s.sheet, [observation.observe(flight, s.sheet)], **options)
+
+
+def test_where_all_samples_weigh_the_same_lines_are_noise() -> None:
+    """Held against the floor alone, a fit down to the noise passed for one that lacks an effect, and a sheet that was off
+    could not be widened: effects that are none took up what its parameters were held from.
+    """
+    line = lambda x: np.sqrt(2.0) * SIZE * np.sin(2 * np.pi * 5.1 * x.time)  # noqa: E731
+    c = calibrated(line, 200.0, unweighted=True)
+    assert c.noise[0].lines
+    assert c.noise[0].spectra[0].rms < 0.6 * SIZE
+    assert c.excess == pytest.approx(1.0, abs=0.15)
+
+
+def test_a_walk_that_is_slower_than_the_record_is_noise() -> None:
+    """Most of its rms is of periods that no spectrum of the record shows: it is no reason to weigh all samples alike."""
+    c = calibrated(lambda x: 0.04 * SIZE * np.cumsum(np.random.default_rng(1).normal(size=len(x))), 320.0)
+    assert c.excess == pytest.approx(1.0, abs=0.1)
+
+
+@pytest.mark.parametrize("swells", [True, False])
+def test_noise_that_swells_is_told_from_white_noise_that_does(swells: bool) -> None:
+    """Of drifting noise in proportion to |a_x| the level is divided out first; beside drifts that stay as they are, after the filter."""
+
+    def loud(flight: Flight) -> Array:
+        size = np.abs(flight.channels["a_x"])
+        level = 0.2 + size / np.sqrt(np.mean(size**2))
+        white, other = 0.1 * np.random.default_rng(2).normal(size=(2, len(flight)))
+        drift = signal.lfilter([0.15], [1.0, -0.98], other)
+        return np.asarray(level * (white + drift) if swells else level * white + drift)
+
+    (found,) = calibrated(loud, 200.0).noise
+    assert [p.name for p in found.level.parts] == ["abs(a_x)"]
+    assert found.level_first is swells
+
+
+def test_noise_of_a_narrow_band_is_known_though_one_sample_in_a_hundred_is_missing() -> None:
+    """With zeros in their place its density above the band came out nine times as large."""
+
+    def narrow(flight: Flight) -> Array:
+        rng = np.random.default_rng(1)
+        shape = 1 / (1 + (np.fft.rfftfreq(len(flight), 1 / RATE) / 3.0) ** 16)
+        x = 0.16 * np.fft.irfft(np.fft.rfft(rng.normal(size=len(flight))) * np.sqrt(shape), len(flight))
+        return np.where(rng.random(len(flight)) > 0.01, x, np.nan)
+
+    low, high = calibrated(narrow, 150.0).noise[0].spectra[0].psd(np.array([1.0, 7.0]))
+    assert low == pytest.approx(2 * 0.16**2 / RATE, rel=0.5)
+    assert high < 2e-3 * low  # without gaps 1.1e-3
+
+
+# --- the minimiser ---
+
+
+def problem(residual: Callable[[Array], Array], costs: list[float]) -> Callable[[Array], Linear]:
+    """A sum of squares as a linearised problem about a point, its Jacobian by differences."""
+
+    def linearise(x: Array) -> Linear:
+        r = residual(x)
+        J = np.stack([(residual(x + h) - residual(x - h)) / 2e-6 for h in 1e-6 * np.eye(len(x))], axis=1)
+        costs.append(float(r @ r))
+        n = len(x) + 1
+        rows = np.vstack([np.column_stack([J, -r]), np.zeros((n, n))])
+        return Linear(np.linalg.qr(rows, mode="r"))
+
+    return linearise
+
+
+def make_linear(y: list[float], rest: float) -> Linear:
+    """With the identity for R."""
+    T = np.eye(len(y) + 1)
+    T[:-1, -1], T[-1, -1] = y, np.sqrt(rest)
+    return Linear(T)
+
+
+def rosenbrock(x: Array) -> Array:
+    return 30.0 * np.array([100.0 * (x[1] - x[0] ** 2), 1.0 - x[0], 0.3])
+
+
+def powell(x: Array) -> Array:
+    """Powell's badly scaled function, with a prior that keeps it regular."""
+    return np.array([1e4 * x[0] * x[1] - 1.0, np.exp(-x[0]) + np.exp(-x[1]) - 1.0001, *(1e-3 * x)])
+
+
+def wall(x: Array) -> Array:
+    """A step that gains less than nothing counted as the last: fits ended far from their optimum."""
+    return np.array([10.0 - x[0] + 3.0 * np.maximum(x[0] - 1.0, 0.0) ** 2, 0.1 * x[0]])
+
+
+@pytest.mark.parametrize(
+    ("residual", "start"),
+    [(rosenbrock, [-1.2, 1.0]), (rosenbrock, [8.0, -5.0]), (powell, [0.5, 1.0]), (wall, [0.0])],
+)
+def test_the_minimum_is_that_of_scipy_and_no_accepted_step_went_up(residual, start) -> None:
+    costs: list[float] = []
+    found = minimise(problem(residual, costs), np.array(start), most=400)
+    best = min(
+        float(2 * optimize.least_squares(residual, start, method=m, max_nfev=2000).cost)
+        for m in ("lm", "trf")
+    )
+    assert found.converged
+    assert found.at.cost <= best + (2 * SETTLED if residual is wall else VALLEY)
+    assert found.at.cost <= costs[0]
+
+
+def test_a_model_that_does_not_follow_its_slope_has_not_converged() -> None:
+    found = minimise(lambda x: make_linear([5.0, 0.0], float(np.sum(np.abs(x)))), np.zeros(2))
+    assert not found.converged
+    assert "no step reduces the misfit" in found.reason
+    assert not is_settled(found.at)
+
+
+@pytest.mark.parametrize(("way", "trials"), [(1000, 22), (60, 60)])
+def test_a_search_is_left_where_its_pace_would_not_bring_it_to_its_end(way: int, trials: int) -> None:
+    seen: list[Array] = []
+
+    def creeping(x: Array) -> Linear:
+        seen.append(x)
+        return make_linear([1e3 * max(0.0, 1.0 - len(seen) / way)], 1.0)
+
+    assert minimise(creeping, np.zeros(1)).converged is (way == trials)
+    assert len(seen) == pytest.approx(trials, abs=3)
