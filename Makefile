@@ -69,7 +69,7 @@ bench-diagnosis: $(STAMP)  ## measure the diagnosis on 720 flights (resumable, a
 	$(BIN)/python -m benchmarks.diagnosis --jobs 2 --against benchmarks/diagnosis/reference.csv
 
 faults: $(STAMP)  ## kill commands at random moments: 100 trials
-	$(BIN)/python -m tests.faults
+	$(BIN)/python -m tests.test_faults
 
 package:  ## build wheel and sdist, install into an empty environment, run the demo there
 	PYTHON=$(PYTHON) .ci/package

@@ -37,20 +37,13 @@ DEAREST = (
     "test_effect_conformance.py",
     "test_terms.py",
     "test_next_motion.py",
+    "test_compensate.py",
     "test_real_measurements.py",
     "test_export.py",
-    "test_compensate.py",
     "test_bad_input_messages.py",
     "test_reference_pages.py",
-    "test_gates.py",
-    "test_catalogue.py",
-    "test_thinning.py",
-    "test_several_outputs.py",
-    "test_calibrate_once.py",
-    "test_report.py",
-    "test_quality.py",
 )
-"""Files that take seven seconds and more, the longest first: what one worker begins last the other waits for."""
+"""The longest first: what one worker begins last the other waits for."""
 
 
 WHOLE = ("test_next_motion.py", "test_outputs.py", "test_screening_mistakes.py")

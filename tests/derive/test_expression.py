@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import time
-from functools import cache
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
+import sympy as sp
 from numpy.typing import NDArray
 
-from derive.effect import Effect
+from derive.chain import accelerometer
+from derive.effect import STAGES, Effect
 from derive.effects import catalogue
 from derive.expression import ExpressionError, from_expression
 from derive.pipeline import derive_model
+from derive.tape import partials
 from ragg_runtime.model.model import Model, load_files
 
 K = {"K": {"unit": "ug"}}
@@ -30,24 +34,18 @@ K = {"K": {"unit": "ug"}}
         ("K*f_i\ud800", "not an expression"),
         ("K*\uff46_i", "ASCII"),  # Python would read a full-width f as f
         ("K*f_i # \u202e", "ASCII"),
-        ("K*10**10**10", "whole number from 1 to 8"),
         ("K*f_i**9", "whole number from 1 to 8"),
-        ("K*f_i**-1", "whole number from 1 to 8"),
-        ("K*(((((9**8)**8)**8)**8)**8)**8", "degree"),
         ("K*((f_i**8)**8)**8", "degree"),
         ("K*(1e29**8)**3", "out of range"),
         ("K*" + "*".join(["1e29"] * 40), "out of range"),
         ("K*1e400", "out of range"),
         ("K*1e-400*f_i + K*1e-300", "out of range"),
-        ("K*" + "9" * 490, "out of range"),
-        ("K*0x" + "f" * 480, "out of range"),
         ("K*f_i/0", "division by zero"),
         ("K*f_i/(f_o-f_o)", "division by zero"),
         ("K*exp(exp(exp(99)))", "exp of a number"),
         ("K*sin(1e29)", "sin of a number"),
         ("K*sin(f_i, 1)", "one argument"),
         ("K*sin(*f_i)", "one argument"),
-        ("K*sin(x=f_i)", "one argument"),
         ("K*f_i.real", "not allowed"),
         ("K*f_i[0]", "not allowed"),
         ("K*().__class__", "not allowed"),
@@ -58,7 +56,6 @@ K = {"K": {"unit": "ug"}}
         ("K*f'{f_i}'", "not allowed"),
         ("K*'a'", "not allowed"),
         ("K*1j", "not allowed"),
-        ("K*True", "not allowed"),
         ("K*f_i if 1 else 2", "not allowed"),
         ("K @ f_i", "not allowed"),
         ("K*f_i + 1", "does not vanish"),
@@ -83,7 +80,6 @@ def test_what_is_no_formula_is_refused_at_once(text: str, why: str) -> None:
         ("_mine", K),
         ("m" * 65, K),
         ("mine", {"K-x": {"unit": "ug"}}),
-        ("a" + "/b", K),
         ("mine\n", K),
         ("mine", {}),
         ("mine", {"f_i": {"unit": "ug"}}),
@@ -92,7 +88,6 @@ def test_what_is_no_formula_is_refused_at_once(text: str, why: str) -> None:
         ("mine", {"sin": {"unit": "ug"}}),
         ("mine", {"K": {"unit": "ug", "plausible": "1"}}),
         ("mine", {"K": {"unit": "ug", "plausible": float("nan")}}),
-        ("mine", {"K": {"unit": "ug", "plausible": 0}}),
         ("mine", {"K": {"unit": "ug", "plausible": 10**400}}),
         ("mine", {"K": {"unit": "ug", "shared": "yes"}}),
         ("mine", {"K": {"unit": "ug"}, "x": {"unit": "ug"}}),
@@ -138,23 +133,76 @@ def evaluated(m: Model, inputs: dict[str, Array], p: Array, t: Array) -> Array:
     return m.chain.voltages(t, [inputs[n] for n in m.chain.INPUTS], p, 2 * np.pi * p[1] * t)
 
 
-@cache
-def under(identifier: str) -> Model:
-    """The model with effects of all stages under two ids."""
+def under(ids: Sequence[str]) -> Model:
+    """The model with effects of all stages under other ids."""
     made = [e for e in catalogue() if e.id in CHOSEN]
-    return model(*(Effect(**{**vars(e), "id": f"{identifier}{'-a' * n}"}) for n, e in enumerate(made)))
+    return model(*(Effect(**{**vars(e), "id": i}) for i, e in zip(ids, made, strict=True)))
 
 
-@pytest.mark.parametrize("identifier", ["d2", "f-disc", "sensed"])
-def test_every_stage_under_ids_that_the_derivation_uses_itself(identifier: str) -> None:
-    """Effects of all stages under two ids at once: what they do depends on the ids in no way."""
-    one, other = under(identifier), under("zz")
+def test_every_stage_under_ids_that_the_derivation_uses_itself() -> None:
+    """What effects do depends on their ids in no way."""
+    one, other = under(["d2", "f-disc", "sensed", "d2-a", "sensed-a"]), under(["z1", "z2", "z3", "z4", "z5"])
     inputs, p, t = drawn(other)
     assert one.chain.INPUTS == other.chain.INPUTS
     np.testing.assert_allclose(evaluated(one, inputs, p, t), evaluated(other, inputs, p, t), rtol=1e-12)
+
+
+def list_constructs(e: Effect) -> set[str]:
+    """Functions and powers in the chain of an effect, and the stages that it changes."""
+    values = [value for _, value in accelerometer((e,)).tape.assignments]
+    found = {type(x).__name__ for v in values for x in v.atoms(sp.Function)}
+    found |= {str(x.exp) for v in values for x in v.atoms(sp.Pow)}
+    return found | {stage for stage in STAGES if getattr(e, stage) is not None}
+
+
+def test_effects_in_c_are_those_in_numpy() -> None:
+    """All effects that hold something which those before do not."""
+    chosen: list[Effect] = []
+    seen: set[str] = set()
+    for e in catalogue():
+        if e.kind in ("deterministic", "step") and not list_constructs(e) <= seen:
+            chosen.append(e)
+            seen |= list_constructs(e)
+    m = model(*chosen)
+    assert m.chain.library is not None
+    inputs, p, t = drawn(m)
+    series, phi = [inputs[n] for n in m.chain.INPUTS], 2 * np.pi * p[1] * t
+    both = m.chain, replace(m.chain, sources={})
+    V, expected = (c.voltages(t, series, p, phi) for c in both)
+    np.testing.assert_allclose(V, expected, rtol=1e-11)
+    for j in range(4):
+        D, true = (c.derivatives(j, t, series, p, phi) for c in both)
+        assert np.all(np.abs(D - true) <= 1e-10 * np.max(np.abs(true), axis=1, keepdims=True))
 
 
 @pytest.mark.parametrize("text", ["sign(K*f_i)", "K*f_i + sign(K)"])
 def test_a_step_at_the_neutral_value_of_a_parameter_is_refused(text: str) -> None:
     with pytest.raises(ExpressionError, match="no finite slope"):
         from_expression("mine", "transducer", text, {"K": {"unit": "ug"}})
+
+
+X, Y, Z = sp.symbols("x y z", real=True)
+
+
+@pytest.mark.parametrize(
+    "e",
+    [
+        3 * X * Y**2 - Z / 7,
+        X**Y + sp.exp(X * Z),
+        sp.sin(X * Y) * sp.cos(Z) + Y * sp.Abs(Y),
+        sp.pi * X * sp.Heaviside(Y, 1),
+        X / sp.sin(sp.sign(X / Y)),
+        sp.sin(sp.Abs(sp.sqrt(X)) * Y),
+        Z * sp.exp(sp.sign(sp.sqrt(X) - Y)),
+        sp.tanh(sp.Abs(X / Y) * Z),
+    ],
+    ids=str,
+)
+def test_no_derivative_is_left_open(e: sp.Expr) -> None:
+    """Of functions of signs and moduli whose argument SymPy does not know to be real; against differences."""
+    at, h = {X: 0.7, Y: 1.3, Z: -0.4}, 1e-6
+    found = partials(e)
+    for s in at:
+        ends = [e.subs(at | {s: at[s] + d}).evalf() for d in (h, -h)]
+        slope = found.get(s, sp.Integer(0)).subs(at).evalf()
+        assert float(slope) == pytest.approx(float(ends[0] - ends[1]) / (2 * h), abs=1e-6)

@@ -1,10 +1,18 @@
-"""Sheets of instruments with other layouts than the paper's, as a user writes them."""
+"""Sheets of instruments with other layouts than the paper's, as a user writes them, and their flights."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from types import MappingProxyType
 
 import numpy as np
+
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.io import Flight
+from ragg_runtime.reference import EffectValues, simulate
+from ragg_runtime.reference.scenario import draw_gradient, draw_motion, perturbed
+from ragg_runtime.reference.simulate import eotvos_noise
+from tests.rate import RATE
 
 
 def accelerometer(name: str, angle: float, sign: int, output: str = "G_out", further: str = "") -> str:
@@ -43,13 +51,8 @@ def sheet(discs: Sequence[str], count: int, head: str = "", seed: int = 1, size:
     lines += [f'K1 = {{ value = {values(1e-3, 10.0)}, unit = "mA/g" }}']
     lines += [f'K{n} = {{ value = {values(10)}, unit = "ug/g^2" }}' for n in (2, 4, 5, 6, 7, 8)]
     lines += ['k_VI = { value = 1e9, unit = "ohm" }']
-    return (
-        'effects = []\ng0 = "9.8 m/s^2"\n'
-        + head
-        + "".join(discs)
-        + "[accelerometers]\n"
-        + "\n".join(lines)
-        + "\n"
+    return "\n".join(
+        ['effects = []\ng0 = "9.8 m/s^2"', head + "".join(discs) + "[accelerometers]", *lines, ""]
     )
 
 
@@ -84,13 +87,8 @@ def umbrella(spin: float = 0.25) -> list[str]:
     return [disc(n, four(n, f"G_out_{n}"), axis, spin) for n, axis in zip("ABC", UMBRELLA, strict=True)]
 
 
-def vertical() -> list[str]:
-    """The paper's four on a vertical disc, 1 g in its plane: but for the axis all constants are the paper's."""
-    return [disc("A", four("A", "G_out"), (1, 0, 0))]
-
-
 def oblique() -> list[str]:
-    """The same a twelfth of a turn on: cosines and sines of balanced places that differ in their rounding."""
+    """The paper's four on a vertical disc, a twelfth of a turn on: cosines and sines that differ in their rounding."""
     return [disc("A", four("A", "G_out", 30.0), (1, 0, 0))]
 
 
@@ -104,3 +102,18 @@ def odd() -> list[str]:
     ]
     beside = [accelerometer("B1", 30.0, 1, "G_out_B", 'direction = [1, 0, 0]\nheight = "-0.2 m"\n')]
     return [disc("A", vertical, (1.0, 0.1, 0.0), 0.3), disc("B", beside, (0, 0, -1), 0.0)]
+
+
+def flown_by(sheet: Instrument, duration: float, effects: EffectValues = MappingProxyType({})) -> Flight:
+    """``duration`` s of an instrument that the sheet knows to a third of its errors, with white noise of 2 Eo/sqrt(Hz)."""
+    s = simulate(
+        perturbed(sheet, np.random.default_rng(5), 0.3),
+        draw_motion(np.random.default_rng(3), duration),
+        duration,
+        RATE,
+        gravity=draw_gradient(np.random.default_rng(4)),
+        noise=eotvos_noise(2e-9, 0.1),
+        kinematics="full",
+        effects={"second-order-misalignment": {"kappa": 0.0}, **effects},
+    )
+    return s.flight()

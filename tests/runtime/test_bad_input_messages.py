@@ -18,13 +18,14 @@ from ragg_runtime import api
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.screening import timing
+from tests.rate import RATE
 
 Change = Callable[[np.ndarray], np.ndarray]
 
 
 @cache
-def good() -> Scenario:
-    return scenario(48, duration=300.0)
+def good(duration: float = 200.0, rate: float = RATE) -> Scenario:
+    return scenario(48, duration=duration, rate=rate)
 
 
 @pytest.fixture(autouse=True)
@@ -100,7 +101,7 @@ def test_bad_input_is_one_message_and_changes_nothing(name: str, monkeypatch: py
 
 def test_the_hidden_effect_is_found_beside_spikes_and_blanks() -> None:
     """Spikes in one sample of a hundred, and gaps in the motion alone."""
-    x: Flight = good().simulate({"thermal-scale": {"dK1_dT": [0.0, 0.0, 2e-7, 0.0]}}).flight()
+    x: Flight = good(300.0, 16.0).simulate({"thermal-scale": {"dK1_dT": [0.0, 0.0, 2e-7, 0.0]}}).flight()
     rng, blank = np.random.default_rng(7), (np.arange(len(x)) // 100) % 12 == 5
     size, hit = 5 * np.std(x.outputs["G_out"]) * rng.choice([-1.0, 1.0], len(x)), rng.random(len(x)) < 0.01
     motion = {n: np.where(blank, np.nan, v) for n, v in x.channels.items() if re.match("a_|omega_", n)}

@@ -17,7 +17,7 @@ from ragg_runtime.api import Added
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.survey.result import Survey
-from ragg_runtime.wording import describe, describe_other, numbers
+from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import render_notebook, render_text
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -146,31 +146,3 @@ def test_a_survey_is_shown_flight_by_flight() -> None:
     assert "100 flights: 100 missing an effect" in text
     assert "recommended: add lag (needed by 100 of 100 flights)" in text
     assert "and 40 more" in text
-
-
-def test_missing_channels_and_units_are_said_where_they_are_missing() -> None:
-    whole, short = {"rms_Eo": 4.0, "inline_Eo": 2.0, "cross_Eo": 1.0}, {"rms_Eo": 4.0, "inline_Eo": None}
-    said = lambda *rows: render_text([describe.tabulate_errors([("", r) for r in rows])])  # noqa: E731
-    assert "No demodulated channels" in said(short, short)
-    assert "No demodulated channels" not in said(whole, short)
-    column = {"samples": 1, "missing": 0, "minimum": 1.0, "mean": 1.0, "maximum": 1.0}
-    columns = [{"name": "T_1", "unit": "", **column}, {"name": "ratio", "unit": "1", **column}]
-    record = {"name": "f", "rows": 1, "gap_count": 0, "gaps": [], "notes": []}
-    record |= dict.fromkeys(("rate_Hz", "origin", "refused"))
-    file = {"path": "f", "format": "csv", "bytes": 1, "records": [record | {"columns": columns}]}
-    text = render_text(describe_other.describe_flight_file(file))
-    assert [line.split()[1] for line in text.splitlines() if line.split()[:1] in (["T_1"], ["ratio"])] == [
-        "-",
-        "1",
-    ]
-
-
-def test_alternatives_are_named_in_the_headline(result: Result) -> None:
-    d = result.diagnosis.as_json()
-    group = {"name": "a term proportional to f_o*time", "effects": ["thermal-scale", "gain-drift", "lag"]}
-    text = render_text(describe.describe_diagnosis({**d, "groups": [group]}))
-    assert text.startswith("Missing: one of thermal-scale, gain-drift or lag. With it")
-    assert (
-        "cannot distinguish thermal-scale from gain-drift or lag; a term proportional to f_o*time explains"
-        in text
-    )

@@ -8,13 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import ragg
-from scipy.signal import savgol_filter
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.instrument import PAPER_FORM, PRESETS, Form
 from ragg_runtime.instrument.model_toml import parse_instrument
-from ragg_runtime.io import Flight, read_flight, write_flight
+from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.files import convert
 from ragg_runtime.model import derive
 from ragg_runtime.model.model import evaluate_output, load_packaged, make_vector, scale_factor
@@ -103,13 +102,8 @@ def test_disc_spin_is_offered_to_models_that_lack_it_alone(tmp_path: Path) -> No
 
 @pytest.mark.parametrize(
     "form",
-    [
-        PAPER_FORM,
-        EXACT,
-        Form(mounting=2, misalignment="exact"),
-        Form(kinematics="full", mounting="exact", second_order_angles=True),
-    ],
-    ids=["paper", "exact", "mixed", "mixed full"],
+    [PAPER_FORM, EXACT, Form(kinematics="full", mounting="exact", second_order_angles=True)],
+    ids=["paper", "exact", "mixed"],
 )
 def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -> None:
     """Nominal error below 0.1 Eo; measured below 1e-5."""
@@ -127,29 +121,24 @@ def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -
     assert np.sqrt(np.mean(left**2)) > 0.1
 
 
-def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams() -> None:
+@pytest.mark.parametrize(
+    ("f", "bits"), [(0.25, 20), (0.3, 16)]
+)  # steps in time with the samples: no white noise
+def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams(f: float, bits: int) -> None:
     """A swing of the disc comes out, the encoder's steps hardly; parts of a record give what the whole gives."""
-    rate, f, step = 16.0, 0.25, 6e-6
-    t = np.arange(4000) / rate
-    swing = 1e-3 * np.sin(2 * np.pi * 2 * f * t)
-    angle = 2 * np.pi * f * t + swing
-    coded = np.mod(step * np.round(angle / step), 2 * np.pi)
-    first, second = measure_spin(coded, t, rate).values()
-    left = np.unwrap(coded) - 2 * np.pi * f * t  # of an angle of hundreds of radians the filter loses digits
-    for level, order, found in ((2 * np.pi * f, 1, first), (0.0, 2, second)):
-        expected = savgol_filter(left, 21, 7, deriv=order, delta=1 / rate) + level
-        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9)
-    w = 2 * np.pi * 2 * f
-    inner = slice(20, -20)
-    assert np.std((first - 2 * np.pi * f - 1e-3 * w * np.cos(w * t))[inner]) < 0.02 * 1e-3 * w
-    assert np.std((second + 1e-3 * w**2 * np.sin(w * t))[inner]) < 0.05 * 1e-3 * w**2
-    steady = np.mod(step * np.round(2 * np.pi * f * t / step), 2 * np.pi)
-    assert np.std(measure_spin(steady, t, rate)[SPIN[1]][inner]) < 1e-4
-    whole = Record(
-        time=t, wide={"spin_angle": coded}, rate=rate, valid=np.ones(t.size, bool), spin_frequency=f
-    )
+    rate, step, w = 16.0, 2 * np.pi / 2**bits, 2 * np.pi * 0.5
+    t, inner = np.arange(4000) / rate, slice(20, -20)
+
+    def coded(angle: np.ndarray) -> np.ndarray:
+        return np.mod(step * np.round(angle / step), 2 * np.pi)
+
+    swinging = coded(2 * np.pi * f * t + 200 * step * np.sin(w * t))
+    first, second = measure_spin(swinging, t, rate).values()
+    assert np.std((first - 2 * np.pi * f - 200 * step * w * np.cos(w * t))[inner]) < 0.02 * 200 * step * w
+    assert np.std((second + 200 * step * w**2 * np.sin(w * t))[inner]) < 0.05 * 200 * step * w**2
+    assert np.std(measure_spin(coded(2 * np.pi * f * t), t, rate)[SPIN[1]][inner]) < 16 * step
+    whole = Record(t, {"spin_angle": swinging}, rate, np.ones(t.size, bool), f)
     part = whole.part(slice(1000, 2000)).series(SPIN[1])
-    assert part is not None
     np.testing.assert_allclose(part, second[1000:2000], rtol=0, atol=1e-9)
     plain = replace(whole, wide={})
     for name, value in zip(SPIN, (2 * np.pi * f, 0.0), strict=True):
@@ -159,9 +148,8 @@ def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams() -> None:
 def test_a_paper_model_lacks_the_spin_and_with_it_the_error_is_the_noise(tmp_path: Path) -> None:
     (tmp_path / "sheet.toml").write_text(sheet("[model]"))
     m = api.new(tmp_path / "paper", tmp_path / "sheet.toml")
-    flight = simulate_flight(
-        replace(m.instrument, form=Form(kinematics="full")), (), seed=4, duration=100.0, rate=RATE
-    )
+    full = replace(m.instrument, form=Form(kinematics="full"))
+    flight = simulate_flight(full, (), seed=4, duration=100.0, rate=RATE)
     same = simulate_flight(m.instrument, ["disc-spin:share=1"], seed=4, duration=100.0, rate=RATE)
     np.testing.assert_array_equal(flight.outputs["G_out"], same.outputs["G_out"])
     d = api.diagnose(m, [flight])
@@ -172,7 +160,7 @@ def test_a_paper_model_lacks_the_spin_and_with_it_the_error_is_the_noise(tmp_pat
     assert share.std < 0.2
 
 
-S = scenario(5, trim="table-v", duration=120.0, rate=RATE)
+S = scenario(5, trim="table-v", duration=80.0, rate=RATE)
 
 
 def flown(start: float) -> Flight:
@@ -184,7 +172,7 @@ def flown(start: float) -> Flight:
     return replace(made, time=made.time + (start - turn), began=None)
 
 
-@pytest.mark.parametrize("start", [-3.0, 0.0, 0.00037, 2.0, 10.0, 1802.0])
+@pytest.mark.parametrize("start", [-3.0, 0.00037, 1802.0])
 def test_seconds_count_from_zero_whatever_the_first_sample_is(start: float) -> None:
     x = flown(start)
     r = record(x, S.sheet)
@@ -235,15 +223,3 @@ def test_what_is_converted_keeps_its_angle(stamp: str, tmp_path: Path) -> None:
     assert second.time[0] == 0.0
     np.testing.assert_allclose(record(first, S.sheet).phi, record(second, S.sheet).phi, atol=1e-9)
     assert any("time counts from" in n for n in told["notes"])
-
-
-def test_a_motion_that_is_flown_keeps_its_time(tmp_path: Path) -> None:
-    write_flight(flown(11.0), tmp_path / "motion.parquet")
-    x = simulate_flight(
-        S.sheet, [], motion=tmp_path / "motion.parquet", noise=0.0, sheet_error=0.0, no_gradient=False
-    )
-    assert x.time[0] == 11.0
-    model, r = load_packaged(), record(x, S.sheet)
-    p = make_vector(model, S.sheet)
-    left = (x.outputs["G_out"] - evaluate_output(model.chain, r, p)) / scale_factor(model, p)
-    assert np.std(left) < 1e-5

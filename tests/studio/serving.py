@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -98,24 +98,26 @@ def served(*arguments: object, browser: str = "") -> Iterator[Served]:
         process.stderr.close()
 
 
-def settled(client: httpx.Client, *, diagnosed: bool = True) -> dict[str, Any]:
-    """The state once nothing is being worked on."""
+def wait_for(client: httpx.Client, done: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
     end = time.monotonic() + PATIENCE
     while time.monotonic() < end:
         state: dict[str, Any] = client.get("/api/state").json()
-        if not state["status"]["job"] and (state["effects"] or not diagnosed or state["status"]["error"]):
+        if done(state):
             return state
         time.sleep(0.1)
     raise AssertionError("the server does not come to an end")
 
 
+def settled(client: httpx.Client, *, diagnosed: bool = True) -> dict[str, Any]:
+    """The state once nothing is being worked on."""
+    return wait_for(
+        client,
+        lambda s: not s["status"]["job"] and (not diagnosed or bool(s["effects"] or s["status"]["error"])),
+    )
+
+
 def compared(client: httpx.Client, what: str = "banner") -> dict[str, Any]:
     """The state once the flights are compared; the tests of the effects, which take most of the time, are cancelled."""
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end:
-        state: dict[str, Any] = client.get("/api/state").json()
-        if state[what] or not state["status"]["job"]:
-            client.post("/api/do/cancel", json={})
-            return settled(client, diagnosed=False)
-        time.sleep(0.1)
-    raise AssertionError("the flights are not compared")
+    wait_for(client, lambda s: bool(s[what]) or not s["status"]["job"])
+    client.post("/api/do/cancel", json={})
+    return settled(client, diagnosed=False)

@@ -1,4 +1,4 @@
-"""``python -m tests.faults [--trials N] [--seed K]``: add, calibrate --save, survey and compensate, killed at random moments.
+"""Commands that are cut off between any two files, or (``python -m tests.test_faults [--trials N] [--seed K]``) killed at random moments.
 
 After each: model.toml and history.json are the old or the new ones, whole, and the next command works.
 """
@@ -18,11 +18,15 @@ import tempfile
 import time
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
+
+import pytest
 
 from ragg_runtime import api
 from ragg_runtime.io import write_flight
 from ragg_runtime.model.directory import load_model_dir
 from ragg_runtime.simulate import simulate_flight
+from tests.runtime.commands import ragg
 
 SURVEY = ["survey", "model", "flight.parquet", "--jobs", "1", "--resume", "r.jsonl", "--json", "s.json"]
 OLD = ([], ["new"], False)
@@ -34,7 +38,7 @@ COMMANDS = {
 }
 """Name -> the command, and the state (effects, steps, calibrated) in which it leaves the model."""
 ENVIRONMENT = os.environ | {
-    "PYTHONPATH": str(Path(__file__).resolve().parents[2]),
+    "PYTHONPATH": str(Path(__file__).resolve().parents[1]),
     "OPENBLAS_NUM_THREADS": "1",
 }
 
@@ -82,6 +86,32 @@ def trial(command: str, base: Path, seconds: float) -> tuple[str, str]:
         assert len(json.loads((base / "s.json").read_text("utf-8"))["flights"]) == 1
     left = [p.name for p in (base / "model").iterdir() if p.name.startswith(".")]
     return "new" if found == new != OLD else "old", ", ".join(left)
+
+
+@pytest.mark.parametrize("command", ["add", "calibrate"])
+def test_a_command_that_is_cut_off_leaves_the_old_or_the_new_model(command, tmp_path, monkeypatch) -> None:
+    """What lies there whenever a file is put in place is kept, as a kill would leave it, and the command repeated."""
+    base = prepared(tmp_path / "base")
+    places: list[Path] = []
+    arguments, new = COMMANDS[command]
+    words = arguments[:3] if command == "add" else arguments  # an effect is added without a flight as well
+    replace = os.replace
+
+    def photographed(source: Any, target: Any) -> None:
+        places.append(Path(shutil.copytree(base, tmp_path / f"cut-{len(places)}")))
+        replace(source, target)
+
+    monkeypatch.chdir(base)
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "replace", photographed)
+        assert ragg(*words).returncode == 0
+    assert state(base) == new
+    assert len(places) >= 2
+    assert all(state(p) in (OLD, new) for p in places)
+    monkeypatch.chdir(places[1])  # the history is written, the file that it tells of is not
+    assert state(places[1]) == OLD
+    assert ragg(*words).returncode == 0
+    assert state(places[1]) == new
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -1,1 +1,0 @@
-"""Commands that are killed at a random moment: ``python -m tests.faults``."""

@@ -1,1 +1,0 @@
-"""Layouts for the tests, as a user writes them."""
