@@ -22,9 +22,10 @@ from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.regressors import compute_residual
 from ragg_runtime.estimation.scores import demodulate_residual
 from ragg_runtime.identification import next_motion
-from ragg_runtime.identification.next_motion import ChannelVariance, Sinusoid
+from ragg_runtime.identification.next_motion import Sinusoid
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import load_packaged
+from ragg_runtime.next_flight import ChannelVariance
 from ragg_runtime.reference.motion import MotionSignals, Sinusoids
 from ragg_runtime.reference.scenario import Scenario, draw_gradient, draw_motion, scenario
 from ragg_runtime.reference.simulate import combine

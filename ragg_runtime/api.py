@@ -30,15 +30,14 @@ from ragg_runtime.compensation.export.contents import Contents
 from ragg_runtime.compensation.export.program import FORMS, write_export
 from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.compensation.saved import saved_calibration
+from ragg_runtime.estimation.fitted import list_noise_floor
 from ragg_runtime.estimation.scores import list_errors
 from ragg_runtime.identification import comparison as _compare
 from ragg_runtime.identification import diagnose as _diagnose
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.next_motion import LIMITS, UNITS
 from ragg_runtime.identification.parameters import Estimates, ParameterValue
-from ragg_runtime.identification.quality import heed_flags
-from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.identification.series import list_noise_floor
+from ragg_runtime.identification.result import Diagnosis, heed_flags
 from ragg_runtime.identification.strong import choose_start
 from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.instrument.layout import PAPER

@@ -10,18 +10,23 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import linalg
 
 from ragg_runtime.api import Loaded, diagnose
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text
 from ragg_runtime.estimation.fitted import Fitted, fit
-from ragg_runtime.estimation.observation import observe_flights
+from ragg_runtime.estimation.least_squares import compute_r_factor
+from ragg_runtime.estimation.observation import combine_output, observe_flights
+from ragg_runtime.estimation.scores import demodulate_residual
+from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification.next_motion import (
     AXES,
     HIGHEST,
+    LONGEST,
     MASS,
     Alternatives,
-    ChannelVariance,
+    Knowledge,
     Sinusoid,
     find_motion,
     find_unit,
@@ -29,6 +34,7 @@ from ragg_runtime.identification.next_motion import (
     move_channels,
     share_evenly,
 )
+from ragg_runtime.identification.parameters import find_combinations
 from ragg_runtime.identification.selection import make_problem
 from ragg_runtime.io import Flight
 from ragg_runtime.wording.sections import make_environment
@@ -139,6 +145,93 @@ def _list_possible(
             remedy="give a wider band or a higher --rate",
         )
     return tones
+
+
+# --- the motion that calibrates: what the parameters add to the variance of the compensated channels (A-optimal), or the volume of what
+# they leave uncertain there (D-optimal; A. Atkinson, A. Donev, R. Tobias, Optimum Experimental Designs, 2007, ch. 10)
+
+MATTER = 1e-3
+"""Share of the channels' variance by parameters below which a direction does not count for D: its volume would be of nothing."""
+
+
+@dataclass(frozen=True)
+class ChannelVariance:
+    """How uncertain parameters show in the compensated channels of the motion of the flights.
+
+    ``shown`` (2, n, n): R factors of the mean product of the changes of inline, and of cross, Eo, by a scale of each parameter.
+    """
+
+    known: Knowledge
+    shown: Array
+
+    @staticmethod
+    def of(f: Fitted) -> ChannelVariance:
+        """Of the first flight of a fit; UserError if it has no channels."""
+        x, n, k_ggi = f.prepared[0], f.n_base, f.scales[0]
+
+        def changes(piece: Piece) -> Array:
+            o = piece.observation
+            volts = combine_output(o, piece.columns[:n])
+            g = np.array([demodulate_residual(e, o.record, k_ggi) for e in volts])
+            return np.stack([g.real, g.imag], axis=1)[:, :, np.isfinite(g[0])]
+
+        found = np.concatenate([*x.each(changes, whitened=False)], axis=2)  # (n, 2, instants)
+        if not found.shape[2]:
+            raise UserError(
+                "no motion can be designed: the flight is too short to demodulate, or its disc does not turn",
+                where=x.observation.name,
+                remedy="give a longer flight of the motion that is to be compensated",
+            )
+        shown = np.stack([compute_r_factor(found[:, k]) for k in range(2)]) / np.sqrt(found.shape[2])
+        return ChannelVariance(Knowledge.of(f), np.asarray(shown))
+
+    def rms(self, R: Array) -> tuple[float, float]:
+        """What the parameters of an R factor add to inline and cross, Eo."""
+        inline, cross = (float(np.linalg.norm(G @ _invert(R))) for G in self.shown)
+        return inline, cross
+
+    def weigh_variance(self, R: Array) -> float:
+        """A-criterion: the less variance, the more."""
+        return -sum(x**2 for x in self.rms(R))
+
+    def weigh_volume(self, R: Array) -> float:
+        """D-criterion: the less volume of the directions that make up the channels' variance by the flights so far, the more."""
+        shown = np.vstack([*self.shown])
+        U, s, _ = np.linalg.svd(shown @ _invert(self.known.root), full_matrices=False)
+        matter = U[:, s**2 > MATTER * np.sum(s**2)].T @ shown
+        return -2 * float(np.sum(np.log(np.linalg.svd(matter @ _invert(R), compute_uv=False))))
+
+    def promise(self, motion: Sequence[Sinusoid], duration: float) -> dict[str, Any]:
+        """What so much, s, of a motion promises of the channels, of the parameters, and of combinations of accelerometers."""
+        f, R = self.known.f, {"now": self.known.root, "then": self.known.fly(motion, duration, LONGEST)}
+        root, columns = {when: _invert(x) for when, x in R.items()}, f.calibration.columns
+
+        def std(w: Array, when: str = "then") -> float:
+            return float(np.linalg.norm(w @ root[when]))
+
+        def describe(name: str, accelerometer: int | None, unit: str, w: Array) -> dict[str, Any]:
+            known: dict[str, Any] = {"name": name, "accelerometer": accelerometer, "unit": unit}
+            return known | {when: std(w, when) for when in R}
+
+        alone = np.diag([q.scale / q.unit_factor for q in columns])
+        channels = {"now": self.rms(R["now"]), "planned": self.rms(R["then"])}
+        return {
+            "channels": {k: {"inline_Eo": x, "cross_Eo": y} for k, (x, y) in channels.items()},
+            "parameters": [
+                describe(q.name, q.accelerometer, q.unit, w) for q, w in zip(columns, alone, strict=True)
+            ],
+            "combinations": [
+                describe(name, None, unit, w)
+                for name, unit, w, _ in find_combinations(f.model, f.calibration.p, columns, std)
+            ],
+        }
+
+
+def _invert(R: Array) -> Array:
+    return np.asarray(linalg.solve_triangular(R, np.eye(len(R))))
+
+
+# --- the run sheet, and what was reached
 
 
 def write_run_sheet(x: NextFlight) -> str:

@@ -20,7 +20,7 @@ from benchmarks.diagnosis.fly import fly
 from benchmarks.diagnosis.plan import Spec
 from benchmarks.diagnosis.score import Line
 from ragg_runtime.estimation.noise import Level
-from ragg_runtime.identification.uneven import Scatter
+from ragg_runtime.identification.likelihood_ratio import Scatter
 
 HALF = 20
 
@@ -83,7 +83,7 @@ RULES = (
          {"estimation.noise_estimate._level": lambda *a: Level()}),
     Rule("uneven", "where the level changes, tests are tempered by the variance of their scores",
          "quiet red-along-axes, quiet size-and-temperature, quiet heavy-with-size, quiet amplifier, ten along-axes, five with-size",
-         {"identification.selection.uneven.temper_test": _first,
+         {"identification.likelihood_ratio.temper_test": _first,
           "identification.omnibus.Scores.measure_scatter":
               lambda self, places: Scatter(np.ones(len(places)), np.full(len(places), np.inf))}),
     Rule("off-sheet", "priors are widened where the record requires it",

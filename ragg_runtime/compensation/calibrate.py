@@ -11,13 +11,12 @@ from numpy.typing import NDArray
 from scipy import linalg
 
 from ragg_runtime.compensation.saved import Saved
-from ragg_runtime.estimation.fitted import Fitted, fit, measure_noise_floor
+from ragg_runtime.estimation.fitted import Fitted, fit, list_noise_floor, measure_noise_floor
 from ragg_runtime.estimation.least_squares import Linear, add_prior, join
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.scores import Error, list_errors
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.parameters import SEEN, find_combinations, list_parameter_values, own_name
-from ragg_runtime.identification.series import list_noise_floor
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import Model, name_values
@@ -81,7 +80,7 @@ def list_combinations(f: Fitted) -> list[dict[str, Any]]:
     """What the record determines: combinations of accelerometers', and single values, as JSON has them."""
     columns, values, root = f.calibration.columns, f.calibration.in_scales, invert_root(information(f))
     together = find_combinations(f.model, f.calibration.p, columns, lambda w: float(np.linalg.norm(w @ root)))
-    found = [(q.name, q.weights, q.unit) for q in together]
+    found = [(name, w, unit) for name, unit, w, _ in together]
     single = np.linalg.norm(root, axis=1) < SEEN
     for name in dict.fromkeys(c.name for c in columns):
         places = [k for k, c in enumerate(columns) if c.name == name]

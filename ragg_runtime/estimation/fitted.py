@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base import series_name
 from ragg_runtime.base.progress import one_thread, split_range
 from ragg_runtime.estimation import calibration, regressors, whitening
 from ragg_runtime.estimation.calibration import QUIET, Calibration, widen_priors
@@ -16,11 +17,12 @@ from ragg_runtime.estimation.least_squares import Linear, add_prior, fold, make_
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import BLOCKS, Observation
 from ragg_runtime.estimation.regressors import Column
-from ragg_runtime.estimation.scores import Error, measure_errors, pool_errors
+from ragg_runtime.estimation.scores import Error, finite, measure_errors, pool_errors
 from ragg_runtime.estimation.thinning import leave_out_extrapolated, leave_out_uncertain, measure_beyond
 from ragg_runtime.estimation.whitening import PreparedFlight, prepare_flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model, make_vector, scale_factor
+from ragg_runtime.signals.demodulators import find_demodulator, low_pass
 
 Array = NDArray[np.float64]
 
@@ -317,3 +319,61 @@ def measure_noise_floor(f: Fitted) -> float:
     """rms of the noise of G_out before demodulation, Eo."""
     power = np.add([estimate_variance(x) for x in f.prepared], f.beyond)
     return float(np.sqrt(np.mean(power / np.square(f.scales))))
+
+
+def compute_noise_psd(w: PreparedFlight, spin: float, f: Array) -> Array:
+    """One-sided, V^2/Hz; where only the channels were recorded, through their low-pass about 2 spin."""
+    psd = w.noise_psd(f)
+    if not w.observation.recorded.demodulated:
+        return psd
+    r = w.observation.record
+    H = r.low_pass.response(np.minimum(np.abs(f - 2 * spin), r.rate / 2))
+    return np.asarray(psd * np.abs(H) ** 2)
+
+
+def predict_demodulated_noise(w: PreparedFlight, k_ggi: float, multiple: int, amplitude: float) -> float:
+    """Standard deviation, Eo, of LP(amplitude cos(2 pi multiple spin t) noise)."""
+    r = w.observation.record
+    spin, slowest = abs(r.spin_frequency), r.rate / len(r.time)  # what is slower is not in the record
+
+    def psd(frequency: Array) -> Array:
+        return compute_noise_psd(w, spin, np.maximum(frequency, slowest))
+
+    power = find_demodulator("fir", r.rate).pass_power(psd, multiple * spin)
+    share = 0.25 if multiple else 0.5  # of the square of the amplitude: of a wave half of it is on average
+    return amplitude * float(np.sqrt(share * power)) / k_ggi
+
+
+def predict_channel_noise(f: Fitted) -> tuple[float, float]:
+    """Standard deviation of (inline, cross) that the noise alone would give, Eo; NaN if the low-pass is too long."""
+    values = [
+        [predict_demodulated_noise(w, k, 2, a) for a in (4.0, 2.0)]
+        for w, k in zip(f.prepared, f.scales, strict=True)
+        if w.observation.record.turning and _is_long(w)
+    ]
+    if not values:
+        return float("nan"), float("nan")
+    inline, cross = np.sqrt(np.mean(np.square(values), axis=0))
+    return float(inline), float(cross)
+
+
+def list_noise_floor(f: Fitted, rms_Eo: float) -> dict[str, float | None]:
+    """The noise floor as JSON: before demodulation (Eo), and what the noise alone would give in the channels."""
+    inline, cross = predict_channel_noise(f)
+    return {"rms_Eo": rms_Eo, "inline_Eo": finite(inline), "cross_Eo": finite(cross)}
+
+
+def predict_harmonic_noise(f: Fitted, harmonics: Iterable[str]) -> dict[str, float]:
+    """The same at harmonics of the spin (const, cos 1 ...), Eo."""
+    works = [(w, s) for w, s in zip(f.prepared, f.scales, strict=True) if _is_long(w)]
+    found = {}
+    for h in harmonics:
+        k = series_name.harmonic(h).multiple
+        squares = [predict_demodulated_noise(w, s, k, 2.0 if k else 1.0) ** 2 for w, s in works]
+        found[h] = float(np.sqrt(np.mean(squares))) if squares else float("nan")
+    return found
+
+
+def _is_long(w: PreparedFlight) -> bool:
+    r = w.observation.record
+    return len(r.time) >= 2 * len(low_pass(r.rate))

@@ -3,7 +3,7 @@
 A model is never complete: y = h(theta) + d + n, with d what no effect explains. A claim is made if
 
 (a) the claims together explain more than generic terms could on the residual of the model without them: the difference of log
-    evidence (``probability.log_bayes``), each side charged for its coefficients and for what it was chosen from. Where d is
+    evidence (``likelihood_ratio.weigh``), each side charged for its coefficients and for what it was chosen from. Where d is
     significant its generic terms have Gaussian coefficients of one fitted variance, the claims must be ahead plainly, and each must
     explain more than the best generic term of d;
 (b) its coefficients are significant with a variance estimated from their scores in blocks of time (P. Huber 1967; H. White, Econometrica
@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,9 +25,8 @@ from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation.calibration import restore_priors
 from ragg_runtime.estimation.fitted import FITTED_BLOCKS, Fitted
 from ragg_runtime.estimation.scores import log_sf, log_sf_f
-from ragg_runtime.identification.dictionary import Dictionary
-from ragg_runtime.identification.features import OUTPUT
-from ragg_runtime.identification.likelihood_ratio import TESTABLE, log_bayes
+from ragg_runtime.identification.dictionary import OUTPUT, Dictionary
+from ragg_runtime.identification.likelihood_ratio import TESTABLE, weigh
 from ragg_runtime.identification.omnibus import Omnibus, Remainder, ResidualTerm
 from ragg_runtime.identification.parameters import list_bounded_columns
 
@@ -65,25 +65,26 @@ class Regression:
     def of(f: Fitted, extra: Sequence[int] = ()) -> Regression:
         """Of the base columns of a fit and ``extra`` candidates."""
         picked = [*range(f.n_base), *(f.n_base + k for k in extra), -1]
-        effects = [c.effect for c in f.calibration.columns] + [f.candidates[k].effect for k in extra]
+        columns = f.calibration.columns
         names = {f"{e.id}.{q.name}" for e in f.model.effects for q in e.parameters if q.shape}
-        shapes = [n for n, c in enumerate(f.calibration.columns) if c.name in names]
-        absent = _find_absent(f)
+        shapes = [n for n, c in enumerate(columns) if c.name in names]
+        # neutral values of effects, and nominal ones of the instrument, less the calibrated
+        absent = f.to_nominal.copy()
+        for n, c, q in list_bounded_columns(f):
+            absent[n] = (
+                (q.neutral or 0.0) * c.unit_factor - f.calibration.p[f.calibration.index[n]]
+            ) / c.scale
         absent[shapes] = 0.0  # of what is not there any shape will do
         return Regression(
             flights=tuple(tuple(t[:, picked] for t in own) for own in f.r_factors),
             centre=np.concatenate([f.to_nominal, np.zeros(len(extra))]),
             absent=np.concatenate([absent, np.zeros(len(extra))]),
-            effects=tuple(effects),
+            effects=tuple([c.effect for c in columns] + [f.candidates[k].effect for k in extra]),
             shapes=frozenset(shapes),
         )
 
     def columns(self, effect: str) -> list[int]:
         return [k for k, e in enumerate(self.effects) if e == effect]
-
-    def amplitudes(self, effect: str) -> list[int]:
-        """The columns of an effect that are at rest, with all others, where it is absent."""
-        return [k for k in self.columns(effect) if k not in self.shapes]
 
     def blocks(self, some: Sequence[int] | None = None) -> list[Array]:
         """R factors of the blocks, or of some of each flight, that hold any sample."""
@@ -91,81 +92,76 @@ class Regression:
             t for own in self.flights for b, t in enumerate(own) if (some is None or b in some) and np.any(t)
         ]
 
-    def fit(self) -> tuple[Array, Array]:
-        """Coefficients (n,), and a root of their covariance (n, n)."""
-        kept, R = self._factor(None, ())
-        root = np.asarray(np.linalg.inv(R[: len(kept), :-1]))
-        return root @ R[: len(kept), -1], root
-
     def log_evidence(self, some: Sequence[int] | None = None, without: Sequence[int] = ()) -> float:
         """Of some blocks, but for a constant of these: log of the Gaussian integral over the coefficients that are fitted."""
-        kept, R = self._factor(some, without)
-        k = len(kept)
+        R = self._factor(some, without)
+        k = len(self.centre) - len(without)
         return -0.5 * float(np.sum(R[k:, k] ** 2)) - float(np.sum(np.log(np.abs(np.diag(R)[:k]))))
 
-    def _factor(self, some: Sequence[int] | None, without: Sequence[int]) -> tuple[list[int], Array]:
-        """The columns that are fitted, and the R factor of [them | data], the prior in it."""
+    def _factor(self, some: Sequence[int] | None, without: Sequence[int]) -> Array:
+        """The R factor of [the columns that are fitted | data], the prior in it."""
         n = len(self.centre)
-        kept = [k for k in range(n) if k not in set(without)]
+        kept = [k for k in range(n) if k not in without]
         fixed = np.zeros(n)
         fixed[list(without)] = self.absent[list(without)]
         rows = [np.column_stack([t[:, kept], t[:, -1] - t[:, :n] @ fixed]) for t in self.blocks(some)]
         sheet = np.column_stack([np.eye(len(kept)), self.centre[kept]])
-        return kept, np.asarray(np.linalg.qr(np.vstack([*rows, sheet]), mode="r"))
+        return np.asarray(np.linalg.qr(np.vstack([*rows, sheet]), mode="r"))
 
+    # --- the fit, with a covariance from the scores in blocks of time next to the model's own
 
-def _find_absent(f: Fitted) -> Array:
-    """(n_base,): how far the neutral values of effects, and the nominal ones of the instrument, are from the calibrated, in scales."""
-    found = f.to_nominal.copy()
-    for n, c, q in list_bounded_columns(f):
-        found[n] = ((q.neutral or 0.0) * c.unit_factor - f.calibration.p[f.calibration.index[n]]) / c.scale
-    return found
+    @cached_property
+    def _root(self) -> tuple[Array, Array]:
+        """Coefficients (n,), and a root of their covariance (n, n)."""
+        n, R = len(self.centre), self._factor(None, ())
+        root = np.asarray(np.linalg.inv(R[:n, :-1]))
+        return root @ R[:n, -1], root
 
+    @property
+    def value(self) -> Array:
+        """(n,): the coefficients."""
+        return self._root[0]
 
-@dataclass(frozen=True)
-class Robust:
-    """The fit with a covariance (n, n) from the scores in blocks of time, next to the model's own."""
+    @property
+    def covariance(self) -> Array:
+        """(n, n): the model's own."""
+        root = self._root[1]
+        return np.asarray(root @ root.T)
 
-    regression: Regression
-    value: Array
-    covariance: Array
-    sandwich: Array
-
-    @staticmethod
-    def of(x: Regression) -> Robust:
-        value, root = x.fit()
-        n, scores = len(value), []
-        for t in x.blocks():
-            A = t[:, :n] @ root
+    @cached_property
+    def sandwich(self) -> Array:
+        """(n, n): the covariance from the scores."""
+        (value, root), scores = self._root, []
+        for t in self.blocks():
+            A = t[:, :-1] @ root
             w, U = np.linalg.eigh(np.eye(len(A)) - A @ A.T)
-            left = t[:, -1] - t[:, :n] @ value
+            left = t[:, -1] - t[:, :-1] @ value
             scores.append(A.T @ (U @ ((U.T @ left) / np.sqrt(np.maximum(w, LEVERAGE)))))
         S = root @ np.array(scores).T
-        return Robust(x, value, root @ root.T, S @ S.T)
+        return np.asarray(S @ S.T)
 
     @property
     def stated(self) -> Array:
         """(n, n): the covariance to state, with what the prior leaves open, and no variance below the model's own."""
-        V = self.sandwich + self.covariance @ self.covariance  # the prior's rows are those of unit
-        own = np.diag(self.covariance)
-        wider = np.sqrt(np.maximum(1.0, own / np.maximum(np.diag(V), 1e-300)))
+        C = self.covariance
+        V = self.sandwich + C @ C  # the prior's rows are those of unit
+        wider = np.sqrt(np.maximum(1.0, np.diag(C) / np.maximum(np.diag(V), 1e-300)))
         return np.asarray(V * np.outer(wider, wider))
 
     def significance(self, effect: str) -> Significance:
-        """Of an effect fitted jointly with all others."""
-        E = self.regression.amplitudes(effect)
+        """Of an effect fitted jointly with all others, by its columns that are at rest where it is absent."""
+        E, C = [k for k in self.columns(effect) if k not in self.shapes], self.covariance
         own = np.ix_(E, E)
-        sizes, U = np.linalg.eigh(self.covariance[own])
+        sizes, U = np.linalg.eigh(C[own])
         told = sizes < SEEN
         U, sizes = U[:, told], sizes[told]
-        spread = sizes * (
-            1.0 - sizes
-        )  # of a value that is not there: the prior, which does not scatter, holds it back
-        y = U.T @ (self.value[E] - self.regression.absent[E])
+        # of a value that is not there: the prior, which does not scatter, holds it back
+        spread = sizes * (1.0 - sizes)
+        y = U.T @ (self.value[E] - self.absent[E])
         along = U @ (y / spread)
         expected = float(np.sum(y**2 / spread))
         by = float(along @ self.sandwich[own] @ along) / expected if expected > 0.0 else 1.0
-        direction, blocks = self.covariance[:, E] @ along, self.regression.blocks()
+        direction, blocks = C[:, E] @ along, self.blocks()
         carried = np.array([np.sum((t[:, :-1] @ direction) ** 2) for t in blocks])
         carriers = float(np.sum(carried) ** 2 / np.sum(carried**2)) if expected > 0.0 else 1.0
         return Significance(chi2=expected, rank=len(y), inflation=by, blocks=len(blocks), carriers=carriers)
@@ -218,7 +214,7 @@ def weigh_generic_terms(
     """Log evidence of the best that ``most`` generic terms could do on the residual of a model, and that residual.
 
     ``bases`` are searches for terms of several kinds. Terms that explain hardly more than what is ``claimed`` are taken to explain as much:
-    their chi-squares are those of a periodic filter. ``spread`` as for :func:`weigh_claims`.
+    their chi-squares are those of a periodic filter. ``spread``: variance of their scores.
     """
     found = [sum(max([0.0, *_weigh_terms(s, claimed, most, spread)]) for s in b.searches) for b in bases]
     best = int(np.argmax(found))
@@ -236,7 +232,7 @@ def _weigh_terms(s: Omnibus, claimed: float, most: int, spread: float) -> list[f
     capped = (
         (min(x, claimed + n) if x < (1.0 + SECOND_ORDER) * claimed + n else x, n, paid) for x, n, paid in sets
     )
-    return [weigh_claims(*c, spread) for c in capped]
+    return [weigh(*c, spread) for c in capped]
 
 
 STEP = 0.01
@@ -274,14 +270,6 @@ def find_best_single(bases: Sequence[Remainder]) -> float:
     return max(sum(max([0.0, *singles(s)]) for s in b.searches) for b in bases)
 
 
-def weigh_claims(chi2: float, rank: int, charge: float, spread: float = 1.0) -> float:
-    """Log evidence of claims that explain a chi-square with so many coefficients.
-
-    ``charge``: logarithm of the number of choices; ``spread``: variance of a whitened generic term's score, 1 of noise alone.
-    """
-    return float(log_bayes(chi2 / spread, rank)) - charge
-
-
 def measure_spread(left: Remainder) -> float:
     """Variance that generic terms have in what is left: 1 where nothing significant is."""
     return max([1.0, *(s.spread for s in left.searches)]) if left.significant else 1.0
@@ -292,7 +280,7 @@ def find_strongest(left: Remainder) -> ResidualTerm | None:
     return max((t for s in left.searches for t in s.terms), key=lambda t: abs(t.z), default=None)
 
 
-def add_shift(x: Robust, left: Remainder, columns: Sequence[str], projected: Sequence[str]) -> Array:
+def add_shift(x: Regression, left: Remainder, columns: Sequence[str], projected: Sequence[str]) -> Array:
     """(n, n): the covariance to state of ``columns``, with how far the values move when the generic terms that are left are fitted
     beside the columns ``projected`` out of the residual.
     """
@@ -301,7 +289,7 @@ def add_shift(x: Robust, left: Remainder, columns: Sequence[str], projected: Seq
     places = [at[label] for label in projected if label in at]
     known = [k for k, label in enumerate(projected) if label in at]
     moved = np.zeros(n)
-    for own, s in zip(x.regression.flights, left.searches, strict=True):
+    for own, s in zip(x.flights, left.searches, strict=True):
         if s.shift is not None:
             full = np.zeros(n)
             full[places] = s.shift[known]

@@ -5,25 +5,36 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import combinations, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.progress import one_thread
 from ragg_runtime.estimation import fitted, regressors, unknown_gradient
 from ragg_runtime.estimation.calibration import OffSheet, list_off_sheet
-from ragg_runtime.estimation.fitted import Fitted, Scored, fit, measure_noise_floor, measure_swell
+from ragg_runtime.estimation.fitted import (
+    Fitted,
+    Scored,
+    fit,
+    list_noise_floor,
+    measure_noise_floor,
+    measure_swell,
+)
 from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import Observation, combine_output, observe_flights
-from ragg_runtime.estimation.scores import Error, list_errors
-from ragg_runtime.identification import selection, series, several_outputs
+from ragg_runtime.estimation.scores import Error, find_whole, list_errors, measure_error
+from ragg_runtime.estimation.unknown_gradient import Block, ModelledOutput
+from ragg_runtime.identification import selection
 from ragg_runtime.identification.dictionary import list_harmonics, make_carrier
 from ragg_runtime.identification.omnibus import Remainder, list_terms, search_residual
 from ragg_runtime.identification.selection import make_problem
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import Model, make_vector
-from ragg_runtime.signals.demodulators import is_demodulable, low_pass
+from ragg_runtime.signals.demodulators import Tensor, find_demodulator, is_demodulable, low_pass, tensor
 from ragg_runtime.signals.fir import convolve
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import render_notebook
@@ -119,7 +130,7 @@ class Comparison:
             "duration_s": float(sum(o.record.time[-1] + 1 / o.record.rate for o in f.flights)),
             "rate_Hz": float(records[0].rate),
             "error": list_errors(self.nominal, self.calibrated, self.holdout),
-            "noise_floor": series.list_noise_floor(f, self.noise_floor),
+            "noise_floor": list_noise_floor(f, self.noise_floor),
             "explained": {"share": self.explained.share},
             "converged": self.converged,
             "reason": self.complaint or self.remark,
@@ -139,8 +150,8 @@ class Comparison:
         if len(self.fitted.instrument.layout.outputs) == 1:
             return {}
         return {
-            "outputs": several_outputs.list_errors_of_outputs(self.fitted, self.residual),
-            "together": [t.as_json() for t in several_outputs.compare_outputs(self.fitted)],
+            "outputs": list_errors_of_outputs(self.fitted, self.residual),
+            "together": [t.as_json() for t in compare_outputs(self.fitted)],
         }
 
     @cached_property
@@ -287,3 +298,95 @@ def measure_explained(f: Fitted, scored: Scored) -> Explained:
     ratio = left / power if power > 0.0 else 1.0
     gain = -rows * float(np.log(max(ratio, 1e-300))) - parameters * float(np.log(max(rows, 1.0)))
     return Explained(share=max(0.0, 1.0 - ratio), gain=gain)
+
+
+# --- several outputs of one instrument together: the error of each, the tensor of all, and where they disagree
+
+
+@dataclass(frozen=True)
+class Together:
+    """One flight's outputs of turning discs side by side, by their ``places`` in the layout.
+
+    ``seen`` (outputs, N): inline + i cross, Eo, as each saw it, at the ``time`` (N,), s, at which all have a value; ``std`` (outputs,), Eo:
+    the noise of cross; that of inline is twice.
+    """
+
+    name: str
+    layout: Layout
+    places: tuple[int, ...]
+    time: Array
+    seen: NDArray[np.complex128]
+    std: Array
+
+    @cached_property
+    def tensor(self) -> Tensor | None:
+        """The gravity gradient tensor in the measurement frame, Eo; ``None`` where the discs do not determine it."""
+        if not self.seen.size:
+            return None
+        axes = [self.layout.discs[self.layout.outputs[n].disc].across for n in self.places]
+        rows = np.stack([self.seen.real, self.seen.imag], axis=1).reshape(2 * len(axes), -1)
+        try:
+            return tensor(axes, rows, np.outer(self.std, [2.0, 1.0]).ravel())
+        except UserError:
+            return None
+
+    def differences(self) -> list[dict[str, object]]:
+        """Complements on one disc: what differs between them is noise, half of its variance of each."""
+        outputs, found = [self.layout.outputs[n] for n in self.places], list[dict[str, object]]()
+        for a, b in combinations(range(len(outputs)), 2):
+            if outputs[a].disc == outputs[b].disc and self.seen.size:
+                z = (self.seen[a] - self.seen[b]) / np.sqrt(2)
+                expected = float(np.hypot(self.std[a], self.std[b]) / np.sqrt(2))
+                own = {"inline_Eo": float(np.std(z.real)), "cross_Eo": float(np.std(z.imag))}
+                foreseen = {"expected_inline_Eo": 2 * expected, "expected_cross_Eo": expected}
+                found.append({"outputs": [outputs[a].name, outputs[b].name], **own, **foreseen})
+        return found
+
+    def as_json(self) -> dict[str, object]:
+        figures: dict[str, object] = {"flight": self.name, "noise_between_complements": self.differences()}
+        t = self.tensor
+        if t is not None:
+            figures["tensor"] = {
+                "mean_Eo": [float(x) for x in np.mean(t.gamma, axis=1)],
+                "std_Eo": [float(x) for x in t.std],
+                "closure": t.quality,
+            }
+        return figures
+
+
+def compare_outputs(f: Fitted) -> list[Together]:
+    """Of every flight with several turning outputs what they saw."""
+    found = []
+    for first, last in pairwise([*f.first, len(f.observations)]):
+        every = (
+            (n, *_estimate_gradient(f, n)) for n in range(first, last) if f.observations[n].record.turning
+        )
+        own = [(n, g, std) for n, g, std in every if np.isfinite(g).any()]
+        if len(own) > 1:
+            seen = np.array([g for _, g, _ in own])
+            places = tuple(f.observations[n].place for n, *_ in own)
+            std = np.array([std for *_, std in own])
+            there, o = np.isfinite(seen).all(axis=0), f.observations[first]
+            time, layout = o.record.time[there], f.instrument.layout
+            found.append(Together(o.flight_name, layout, places, time, seen[:, there], std))
+    return found
+
+
+def _estimate_gradient(f: Fitted, n: int) -> tuple[NDArray[np.complex128], float]:
+    """What an observation's output saw of the gradient, inline + i cross (N,), Eo: all that the calibrated model explains is taken out
+    but it (NaN: no value); and the noise of cross, Eo.
+    """
+    o, p, r = f.observations[n], f.calibration.p, f.observations[n].record
+    d = find_demodulator("fir", r.rate)
+    g = ModelledOutput(f.model, o, p, (Block(slice(0, len(r.time)), p),), d).estimate_gradient()
+    there = find_whole(np.ones_like(r.valid), r.valid, d)
+    std = float(np.sqrt(d.pass_power(f.prepared[n].noise_psd, 2 * abs(r.spin_frequency)))) / f.scales[n]
+    return np.where(there, g, np.nan), std
+
+
+def list_errors_of_outputs(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, object]]:
+    """The error object of every output of every flight."""
+    return [
+        {"observation": o.name, "output": o.output.name, **measure_error(e, o.record, k).as_json()}
+        for o, e, k in zip(f.observations, residuals, f.scales, strict=True)
+    ]

@@ -16,8 +16,8 @@ from ragg_runtime.estimation.fitted import Fitted, fit, measure_noise_floor, rel
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.thinning import thin_observations
 from ragg_runtime.identification import next_motion
-from ragg_runtime.identification.claims import Regression, Robust, add_shift
-from ragg_runtime.identification.disagreement import are_far_apart, find_disagreement
+from ragg_runtime.identification.claims import Regression, add_shift
+from ragg_runtime.identification.consistency import are_far_apart, find_change, find_disagreement
 from ragg_runtime.identification.formula import propose_formulas
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.parameters import Estimates
@@ -32,6 +32,7 @@ from ragg_runtime.identification.ranking import (
     weigh_effects,
 )
 from ragg_runtime.identification.result import (
+    ChangePoint,
     Diagnosis,
     Disagreement,
     describe_disagreement,
@@ -39,7 +40,6 @@ from ragg_runtime.identification.result import (
     name_verdict,
 )
 from ragg_runtime.identification.search import Evidence, Outcome, search
-from ragg_runtime.identification.sequential import ChangePoint, find_change
 from ragg_runtime.identification.strong import Extend, Stage
 from ragg_runtime.identification.verdict import Conclusion
 from ragg_runtime.instrument.instrument import Instrument
@@ -171,9 +171,9 @@ def _restate_claims(rows: Sequence[Ranked], found: Conclusion) -> list[Ranked]:
     given = [k for k, q in enumerate(free.candidates) if o.given and q.effect in found.claims]
     fitted = [q.label for q in (*o.target.calibration.columns, *(o.target.candidates[k] for k in o.given))]
     columns = [*free.calibration.columns, *(free.candidates[k] for k in given)]
-    robust = Robust.of(Regression.of(free, given))
+    robust = Regression.of(free, given)
     covariance = add_shift(robust, found.left, [q.label for q in columns], fitted)
-    values = robust.value - robust.regression.absent
+    values = robust.value - robust.absent
     claimed = Estimates(free.model, free.calibration.p, columns, values, covariance)
     return [
         r.with_estimates(claimed.select(r.effect), r.instant) if r.effect in found.claims else r for r in rows

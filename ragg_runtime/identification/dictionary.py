@@ -9,25 +9,22 @@ fifteen of them.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement, product
-from math import comb
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import signal
 
 from ragg_runtime.base import series_name
 from ragg_runtime.base.progress import split_range
 from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Product, Relaxation, Series
 from ragg_runtime.estimation import unknown_gradient
-from ragg_runtime.estimation.observation import divide_into_segments
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight
-from ragg_runtime.identification import features
-from ragg_runtime.identification.features import OUTPUT, Relaxations
-from ragg_runtime.io.record import GRADIENT, RATES, is_disc_angle
+from ragg_runtime.io.record import GRADIENT, SI_UNITS, is_disc_angle
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.fir import filter_columns
 from ragg_runtime.wording import numbers
@@ -35,18 +32,26 @@ from ragg_runtime.wording import numbers
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
+FORCES = ("f_i", "f_o")
+"""Forces that turn with the disc."""
+
+NOTHING: Mapping[str, float] = MappingProxyType({})
+
+OUTPUT = "G_out"
+"""The output as the model predicts it: what a converter or an amplifier bends, whatever it is made of."""
+
 HIGHEST = 4
 """Highest multiple of the spin rate: what second-order terms of a rotating force reach (Eq. 17)."""
 
 HIGHEST_OF_ONE = 6
 """The same of constants and single channels, which are few."""
 
-_MOTION = tuple(f"{n}_{k}" for n in ("a", "omega", "omegadot") for k in "xyz")
+MOTION = tuple(f"{n}_{k}" for n in ("a", "omega", "omegadot") for k in "xyz")
 _CUBIC = tuple(f"{n}_{k}" for n in ("a", "omega") for k in "xyz")
 _RATES = tuple(f"{d}_{n}_{k}" for d, n in (("d", "a"), ("d2", "a"), ("d", "omegadot")) for k in "xyz")
 _NOT_A_CHANNEL = frozenset(GRADIENT)
 
-_FORCES = (*features.FORCES, "a_z")
+_FORCES = (*FORCES, "a_z")
 """What the first accelerometer feels along its input, output and (but for the sign) pendulous axis."""
 
 CREEP = (1, 5, 20, 60)
@@ -118,18 +123,17 @@ class Dictionary:
     def __init__(self, r: Record, output: Array | None = None) -> None:
         self._record = r
         self._of_output = {} if output is None else _make_functions(output)
-        centred = sorted(n for n in r.wide if n not in _MOTION and _is_channel(n))
+        centred = sorted(n for n in r.wide if n not in MOTION and _is_channel(n))
+        self.centre: Mapping[str, float] = {}
+        self.centre = {n: float(np.mean(self._channel(n, r)[r.valid])) for n in (*centred, "time")}
         rates = [n for n in _RATES if n.partition("_")[2] in r.wide]
-        names = [*(n for n in _MOTION if n in r.wide), *centred, "time", *rates, *(f"d_{n}" for n in centred)]
-        further = [c for c in list_generic([*centred, "time"]) if all(features.is_recorded(n, r) for n in c)]
+        names = [*(n for n in MOTION if n in r.wide), *centred, "time", *rates, *(f"d_{n}" for n in centred)]
+        further = [c for c in list_generic([*centred, "time"]) if all(is_recorded(n, r) for n in c)]
         made = dict.fromkeys(n for c in further for n in c if n not in names)
-        found, self._slow = _measure(r, [*names, *made])
-        self.centre = {n: found[n].mean for n in (*centred, "time")}
-        self._size = {n: s.rms if n not in self.centre else s.spread for n, s in found.items() if s.varies}
-        self._size |= {n: _rms(x[r.valid]) or 1.0 for n, x in self._of_output.items()}
+        self._size = self._measure([*names, *made, *self._of_output])
         names = [n for n in names if n in self._size]
-        motion = [n for n in names if n in _MOTION]
-        other = [n for n in names if n not in _MOTION]
+        motion = [n for n in names if n in MOTION]
+        other = [n for n in names if n not in MOTION]
         products: list[tuple[str, ...]] = [(), *((n,) for n in names)]
         products += list(combinations_with_replacement(motion, 2))
         products += [
@@ -139,25 +143,32 @@ class Dictionary:
         # of a disc at rest every harmonic is a constant
         of_one, of_several = (list_harmonics(n if r.turning else 0) for n in (HIGHEST_OF_ONE, HIGHEST))
         alone = [Term(h, c) for c in products if len(c) <= 1 for h in of_one]
-        alone += [Term("const", (f,)) for f in features.FORCES if f in self._size]
+        alone += [Term("const", (f,)) for f in FORCES if f in self._size]
         several = [Term(h, c) for c in products if len(c) > 1 for h in of_several]
         made_of = [c for c in (*further, *OF_OUTPUT) if all(n in self._size for n in c)]
         self.terms: tuple[Term, ...] = (*alone, *several, *(Term("const", c) for c in made_of))
         self.first_order = len(alone)
         """Constants, single channels and turning forces: so many of the terms, the first."""
-        self.channels = tuple(n for n in names if n in _MOTION or n in self.centre)
+        self.channels = tuple(n for n in names if n in MOTION or n in self.centre)
         """Of these terms the recorded ones, and time."""
 
     def with_terms(self, terms: Sequence[Term]) -> Dictionary:
         """The same of other terms, which may be of further functions: of auxiliary channels less their means."""
         made = copy(self)
         names = dict.fromkeys(n for t in terms for n in t.channels if n not in self._size)
-        found, slow = _measure(self._record, [*names], self.centre)
-        made._slow = self._slow | slow
-        made._size = self._size | {n: s.rms for n, s in found.items() if s.varies}
+        made._size = self._size | self._measure([*names])
         made.terms = tuple(t for t in terms if all(n in made._size for n in t.channels))
         made.first_order = 0
         return made
+
+    def _measure(self, names: Sequence[str]) -> dict[str, float]:
+        """Root mean squares, SI, of those series that are not constant."""
+        found, r = {}, self._record
+        for n in names:
+            x = self._channel(n, r)[r.valid]
+            if np.ptp(x) > 0.0 or n in self._of_output:
+                found[n] = float(np.sqrt(np.mean(x**2))) or 1.0
+        return found
 
     def __contains__(self, name: str) -> bool:
         """Whether a series is there and not constant."""
@@ -200,19 +211,17 @@ class Dictionary:
             yield some, x
 
     def _channel(self, name: str, r: Record) -> Array:
+        first = int(np.searchsorted(self._record.time, r.time[0]))
+        rows = slice(first, first + len(r.time))
         if name in self._of_output:
-            first = int(np.searchsorted(self._record.time, r.time[0]))
-            return self._of_output[name][first : first + len(r.time)]
-        slow = self._slow.get(name)
-        return features.make_series(name, r, self.centre) if slow is None else slow.series(name, r)
+            return self._of_output[name][rows]
+        if is_slow(name):
+            return relax(name, self._record, rows, self.centre)
+        return make_series(name, r, self.centre)
 
 
 def _make_functions(output: Array) -> dict[str, Array]:
     return {OUTPUT: output, f"abs({OUTPUT})": np.abs(output), f"sign({OUTPUT})": np.sign(output)}
-
-
-def _rms(x: Array) -> float:
-    return float(np.sqrt(np.mean(x**2))) if len(x) else 0.0
 
 
 def _is_channel(name: str) -> bool:
@@ -220,19 +229,11 @@ def _is_channel(name: str) -> bool:
     return name not in _NOT_A_CHANNEL and not is_disc_angle(name)
 
 
-@dataclass(frozen=True)
-class _Statistics:
-    mean: float
-    rms: float
-    spread: float
-    varies: bool
-
-
 def list_generic(auxiliary: Sequence[str]) -> list[tuple[str, ...]]:
     """Products, of any order, by which a transducer may depend on the force on it; ``auxiliary``: see above."""
     a, omega, omegadot = (tuple(f"{n}_{k}" for k in "xyz") for n in ("a", "omega", "omegadot"))
     rates = tuple(f"d_{f}" for f in _FORCES)
-    turning = features.FORCES
+    turning = FORCES
     pairs = list(combinations_with_replacement(_FORCES, 2))
     memory = [
         f"slow({x}, {t} s)" for names, ts in ((a, CREEP), (turning, TURNING_CREEP)) for x in names for t in ts
@@ -260,37 +261,6 @@ def list_generic(auxiliary: Sequence[str]) -> list[tuple[str, ...]]:
     return found
 
 
-def _measure(
-    r: Record, names: Sequence[str], centre: Mapping[str, float] = features.NOTHING
-) -> tuple[dict[str, _Statistics], dict[str, Relaxations]]:
-    """Over the valid samples of a flight, a segment at a time; and the relaxations by name, which are run through on the way."""
-    slow = Relaxations([n for n in names if features.is_slow(n)], r, centre)
-    count = 0.0
-    first: dict[str, float] = {}
-    sums = {n: np.zeros(2) for n in names}
-    ends = {n: np.array([np.inf, -np.inf]) for n in names}
-    for rows in divide_into_segments(len(r.time)):
-        part = r.part(rows)
-        count += float(np.sum(part.valid))
-        relaxed = slow.advance(part)
-        for n in names:
-            x = (relaxed[n] if n in relaxed else features.make_series(n, part, centre))[part.valid]
-            if not len(x):
-                continue
-            y = x - first.setdefault(n, float(x[0]))  # squares of differences, so that no digits are lost
-            sums[n] += (np.sum(y), y @ y)
-            ends[n] = np.array([min(ends[n][0], np.min(x)), max(ends[n][1], np.max(x))])
-    found = {}
-    for n in names:
-        mean, square = sums[n] / max(count, 1.0)
-        origin = first.get(n, 0.0)
-        spread = float(np.sqrt(max(0.0, square - mean**2)))
-        mean = float(mean + origin)
-        varies = bool(ends[n][1] > ends[n][0])
-        found[n] = _Statistics(mean, float(np.hypot(mean, spread)) or 1.0, spread or 1.0, varies)
-    return found, {n: slow for n in names if features.is_slow(n)}
-
-
 def list_harmonics(highest: int = HIGHEST) -> tuple[str, ...]:
     """const, cos 1, sin 1 ... up to a multiple of the spin rate."""
     return ("const", *(f"{f} {k}" for k in range(1, highest + 1) for f in ("cos", "sin")))
@@ -312,159 +282,136 @@ MEMORY = 16384
 """Most taps of the filter that terms are whitened with: a direction need not be the best one for its
 score to be a standard normal deviate, and slower memory than this buys little."""
 
-SEGMENT = 2048
-"""Samples that are summed in single precision."""
 
+def whiten_terms(
+    x: PreparedFlight, dictionary: Dictionary, piece: Piece, terms: Sequence[Term], only: int | None = None
+) -> Iterator[tuple[slice, Array, Array]]:
+    """Of some terms, a few at a time, their places, their series (terms, N) over a segment, and these whitened (terms, rows).
 
-def multiply(X: Singles, right: Array | Singles) -> Array:
-    """X (terms, N) times right (N, k): single precision within a segment, double between segments."""
-    singles = right.astype(np.float32, copy=False)
-    total = np.zeros((len(X), right.shape[1]))
-    for start in range(0, X.shape[1], SEGMENT):
-        total += X[:, start : start + SEGMENT] @ singles[start : start + SEGMENT]
-    return total
-
-
-def sum_squares(X: Singles) -> Array:
-    """(terms,): sums of squares of X (terms, N), as :func:`multiply` sums."""
-    total = np.zeros(len(X))
-    for start in range(0, X.shape[1], SEGMENT):
-        part = X[:, start : start + SEGMENT]
-        total += np.matmul(part[:, None, :], part[:, :, None])[:, 0, 0]
-    return total
-
-
-def _keep_valid(X: Singles, valid: NDArray[np.bool_]) -> Singles:
-    return X if valid.all() else X[:, valid]
-
-
-class Directions:
-    """Whitened series of the terms of a dictionary over a segment, as terms of the output or of ``only`` one of its series."""
-
-    def __init__(
-        self, prepared: PreparedFlight, dictionary: Dictionary, piece: Piece, only: int | None = None
-    ) -> None:
-        self.piece, self.dictionary, self.whole = piece, dictionary, prepared.observation
-        self.noise, self.filters = prepared.noise, prepared.noise.taps(MEMORY)
-        o = piece.observation
-        self.weights = prepared.noise.weights(
-            o.weights if only is None else np.where(np.arange(len(o.signs)) == only, o.signs, 0.0)
-        )
-
-    def whitened(self, terms: Sequence[Term]) -> Iterator[tuple[slice, Singles, Singles]]:
-        """Places of some terms, their series (terms, N), and these whitened (terms, rows), through the filter."""
-        o, piece = self.piece.observation, self.piece
-        rows = piece.rows
-        lead = min(rows.start, max(len(t) for t in self.filters) - 1)
-        wide = self.whole.record.part(slice(rows.start - lead, rows.stop)) if lead else o.record
-        valid, level = o.record.valid, np.broadcast_to(self.noise.level.of(wide.quantity), wide.valid.shape)
-        for at, x in self.dictionary.make_chunks(wide, terms):
-            if o.recorded.demodulated:  # what the recorder made of G_out before it was recorded
-                x = o.recorded.through(x.astype(np.float64), wide).astype(np.float32)
-                x[:, ~wide.valid] = 0.0
-            even = self.noise.divide(x, level, filtered=False)
-            made = (
-                filter_columns(even, np.asarray(w * taps), lead=lead)
-                for w, taps in zip(self.weights, self.filters, strict=True)
-            )
-            parts = [_keep_valid(self.noise.divide(X, level[lead:], filtered=True), valid) for X in made]
-            yield at, x[:, lead:], self._without_gradient(parts)
-
-    def _without_gradient(self, parts: Sequence[Singles]) -> Singles:
-        X = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
-        unknown_gradient.project(X, self.piece.windows)
-        return X
-
-
-# --- a term as an effect of the user's own: a line for ``effects`` in model.toml, and what the flight must have for it
-
-_FUNCTION_NAMES = {"abs": "absolute value", "sign": "sign", "square": "square"}
-_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
-
-
-def write_effect(term: Term, centre: Mapping[str, float], unit: str) -> str | None:
-    """The effect as one line of model.toml; ``None`` if a channel's name is not possible in an expression, or it is made of the output.
-
-    ``centre`` are the means that auxiliary channels enter less; ``unit`` is that of the term's channels.
+    As terms of the output, or of ``only`` one of its series. They are made in single precision, and summed in double.
     """
-    if any(OUTPUT in series_name.list_channels(series_name.series(n)) for n in term.channels):
-        return None  # no stage sees the output
-    # of the only channel of a term that does not turn the mean is a parameter of the model; elsewhere it would be a further term
-    alone = term.harmonic == "const" and sum(n in centre for n in term.channels) == 1
-    factors: list[str] = []
-    for name in dict.fromkeys(term.channels):
-        s = series_name.series(name)
-        plain = alone and isinstance(s, ChannelName)
-        text = _write_series(s, {} if plain else centre)
-        if text is None:
-            return None
-        n = term.channels.count(name)
-        text = f"({text})" if " " in text and isinstance(s, ChannelName) else text
-        factors.append(text if n == 1 else f"{text}**{n}")
-    product = "*".join(("K_x", *factors, *_write_carrier(term.harmonic)))
-    return f'{{ id = "my-effect", stage = "transducer", add = "{product}", K_x = {{ unit = "{unit}" }} }}'
+    o, rows, noise = piece.observation, piece.rows, x.noise
+    signs = o.weights if only is None else np.where(np.arange(len(o.signs)) == only, o.signs, 0.0)
+    filters = [*zip(noise.weights(signs), noise.taps(MEMORY), strict=True)]
+    lead = min(rows.start, max(len(taps) for _, taps in filters) - 1)
+    wide = x.observation.record.part(slice(rows.start - lead, rows.stop)) if lead else o.record
+    level = np.broadcast_to(noise.level.of(wide.quantity), wide.valid.shape)
+    for at, series in dictionary.make_chunks(wide, terms):
+        if o.recorded.demodulated:  # what the recorder made of G_out before it was recorded
+            series = o.recorded.through(series.astype(np.float64), wide).astype(np.float32)
+            series[:, ~wide.valid] = 0.0
+        even = noise.divide(series, level, filtered=False)
+        made = (filter_columns(even, np.asarray(w * taps), lead=lead) for w, taps in filters)
+        parts = [noise.divide(own, level[lead:], filtered=True)[:, o.record.valid] for own in made]
+        X = np.concatenate(parts, axis=1).astype(np.float64)
+        unknown_gradient.project(X, piece.windows)
+        yield at, series[:, lead:].astype(np.float64), X
 
 
-def list_effect_columns(term: Term) -> list[str]:
-    """In words: the columns that a flight must have for :func:`write_effect`, since an expression has only the values of one instant."""
-    found = {}
-    for name in term.channels:
-        s = series_name.series(name)
-        while isinstance(s, Function):
-            s = s.of
-        if not isinstance(s, ChannelName) and str(s) not in RATES:
-            found[_name_column(s)] = f"{_name_column(s)} ({describe_series(s)})"
-    return list(found.values())
+# --- series that terms are made of: recorded channels, forces that turn with the disc, and what follows them. Their names are those of
+# :mod:`ragg_runtime.base.series_name`. ``f_i`` and ``f_o`` are the specific force along the input and output axes of the first
+# accelerometer, a_y cos phi - a_x sin phi and a_x cos phi + a_y sin phi (those of the others are the same up to sign, in the third and
+# fourth with f_i and f_o exchanged).
 
 
-def describe_series(s: Series) -> str:
-    """What a series is."""
+def is_slow(name: str) -> bool:
+    """Whether a series remembers more of the past than a part of a record holds."""
+    return isinstance(series_name.series(name), Relaxation)
+
+
+def is_recorded(name: str, r: Record) -> bool:
+    """Whether a record has all that a series needs."""
+    found = series_name.list_channels(series_name.series(name, r.wide.keys()))
+    needed = {x for n in found for x in (("a_x", "a_y") if n in FORCES and n not in r.wide else (n,))}
+    return needed <= {"time", *r.wide}
+
+
+def make_series(name: str, r: Record, centre: Mapping[str, float] = NOTHING) -> Array:
+    """(N,), SI: a series over a record or a part of it, relaxations excepted (:func:`relax`); channels less their ``centre``."""
+    return _series(series_name.series(name, r.wide.keys()), r, centre)
+
+
+def _series(s: Series, r: Record, centre: Mapping[str, float]) -> Array:
+    if isinstance(s, Function):
+        functions = {"abs": np.abs, "sign": np.sign, "square": np.square}
+        return np.asarray(functions[s.name](_series(s.of, r, centre)))
+    if isinstance(s, Product):
+        return np.asarray(np.prod([_series(x, r, centre) for x in s.of], axis=0))
+    name = str(s)
+    if name not in r.wide and series_name.list_channels(s)[0] in FORCES:
+        return _turn_forces(name, r)
+    known = r.time if name == "time" else r.series(name)
+    assert known is not None, name
+    return np.asarray(known - centre[name]) if name in centre else known
+
+
+def _turn_forces(name: str, r: Record) -> Array:
+    """f_i, f_o and derivatives: real and imaginary part of (d/dt + i Omega)^n (a_y + i a_x) times e^(i phi)."""
+    order = {"": 0, "d_": 1, "d2_": 2}[name[:-3]]
+    spin = 2j * np.pi * r.spin_frequency
+    factors = ([1.0], [spin, 1.0], [spin**2, 2 * spin, 1.0])[order]
+    z = np.zeros(len(r.time), dtype=np.complex128)
+    for prefix, factor in zip(("", "d_", "d2_"), factors, strict=False):
+        x, y, _ = r.along_disc(prefix)
+        z += factor * (y + 1j * x)
+    z *= r.cos_phi + 1j * r.sin_phi
+    return np.asarray(z.real if name.endswith("f_i") else z.imag)
+
+
+def begins_at_zero(s: Series, centre: Mapping[str, float]) -> bool:
+    """Whether a series relaxes from zero: a force that turns with the disc, or a function of what has no ``centre``; others from their
+    first value.
+    """
+    if isinstance(s, Product):
+        return any(begins_at_zero(x, centre) for x in s.of)
+    (base,) = series_name.list_channels(s)
+    return base in FORCES or (isinstance(s, Function) and base not in centre)
+
+
+FORGOTTEN = 20.0
+"""Time constants after which a relaxation no longer knows where it began: e^-20 is 2e-9."""
+
+
+def relax(name: str, r: Record, rows: slice, centre: Mapping[str, float] = NOTHING) -> Array:
+    """(N,), SI: the series ``slow(X, T s)`` over some rows of a record: y' = (X - y)/T, from rest.
+
+    Zero is the value of X at the first valid sample, unless X turns with the disc (:func:`begins_at_zero`).
+    """
+    s = series_name.series(name, r.wide.keys())
+    assert isinstance(s, Relaxation), name
+    samples = r.rate * float(s.seconds)
+    lead = min(rows.start, int(FORGOTTEN * samples))
+    part, first = r.part(slice(rows.start - lead, rows.stop)), int(np.argmax(r.valid))
+    origin = 0.0
+    if not begins_at_zero(s.of, centre):
+        origin = float(_series(s.of, r.part(slice(first, first + 1)), centre)[0])
+    x = np.where(part.valid, _series(s.of, part, centre) - origin, 0.0)
+    decay = float(np.exp(-1.0 / samples))
+    return np.asarray(signal.lfilter([1.0 - decay], [1.0, -decay], x)[lead:])
+
+
+def find_term_unit(channels_: Sequence[str]) -> str:
+    """Unit of a term's coefficient: V over the units of its channels."""
+    units = [find_channel_unit(c) for c in channels_]
+    return "V" if not units else f"V/({'*'.join(units)})"
+
+
+def find_channel_unit(name: str) -> str:
+    """SI unit of a series."""
+    return _unit(series_name.series(name, SI_UNITS.keys()))
+
+
+def _unit(s: Series) -> str:
     match s:
         case ChannelName(name):
-            return name
+            return "m/s^2" if name in FORCES else SI_UNITS.get(name, "1")
         case Derivative(of, order):
-            return f"{'second ' if order == 2 else ''}time derivative of {of}"
+            unit = _unit(of)
+            return f"m/s^{2 + order}" if unit == "m/s^2" else f"{unit}/{'s' if order == 1 else 's^2'}"
         case Function(name, of):
-            return f"{_FUNCTION_NAMES[name]} of {_describe_centred(of)}"
+            unit = _unit(of)
+            return {"abs": unit, "sign": "1", "square": f"({unit})^2"}[name]
         case Product(factors):
-            return " times ".join(_describe_centred(x) for x in factors)
-        case Relaxation(of, seconds):
-            return f"{describe_series(of)} through a relaxation of {seconds} s"
-
-
-def _describe_centred(s: Series) -> str:
-    recorded = isinstance(s, ChannelName) and s.name not in (*_MOTION, *features.FORCES)
-    return f"{describe_series(s)}{' less its mean' if recorded else ''}"
-
-
-def _name_column(s: Series) -> str:
-    """Name for a column of the flight that holds a series which no expression can form."""
-    if isinstance(s, Relaxation):
-        return "slow_" + re.sub(r"[( ]", "_", str(s.of)).replace(")", "")
-    return str(s)
-
-
-def _write_series(s: Series, centre: Mapping[str, float]) -> str | None:
-    if isinstance(s, Function):
-        inner = _write_series(s.of, centre)
-        return None if inner is None else f"{s.name}({inner})"
-    text = _name_column(s)
-    if not _NAME.fullmatch(text):
-        return None
-    mean = centre.get(str(s), 0.0)
-    return text if not mean else f"{text} {'-' if mean > 0 else '+'} {abs(mean):.6g}"
-
-
-def _write_carrier(name: str) -> tuple[str, ...]:
-    """A harmonic of the disc angle as a polynomial in cos_phi and sin_phi (de Moivre)."""
-    h = series_name.harmonic(name)
-    k = h.multiple
-    if not k:
-        return ()
-    terms = []
-    # powers of i sin phi: real for cos, imaginary for sin
-    for n in range(0 if h.function == "cos" else 1, k + 1, 2):
-        factor = comb(k, n) * (-1) ** (n // 2)
-        powers = [f"{name}**{e}" if e > 1 else name for name, e in (("cos_phi", k - n), ("sin_phi", n)) if e]
-        terms.append("*".join([*([] if factor == 1 else [str(factor)]), *powers]))
-    return (terms[0],) if len(terms) == 1 else (f"({' + '.join(terms)})",)
+            return "*".join(f"({_unit(x)})" for x in factors)
+        case Relaxation(of):
+            return _unit(of)

@@ -9,9 +9,11 @@ the carrier; the best are then scored as the dictionary's terms are.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import product
+from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,14 +21,23 @@ from scipy import signal
 from scipy.special import ndtri
 
 from ragg_runtime.base import series_name
-from ragg_runtime.base.series_name import Function
-from ragg_runtime.estimation import whitening
+from ragg_runtime.base.series_name import ChannelName, Derivative, Function, Product, Relaxation, Series
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.whitening import PreparedFlight, Projector
 from ragg_runtime.identification import omnibus
-from ragg_runtime.identification.dictionary import MEMORY, Dictionary, Term, list_harmonics, make_carrier
-from ragg_runtime.identification.features import FORCES, OUTPUT, begins_at_zero
+from ragg_runtime.identification.dictionary import (
+    FORCES,
+    MEMORY,
+    MOTION,
+    OUTPUT,
+    Dictionary,
+    Term,
+    begins_at_zero,
+    list_harmonics,
+    make_carrier,
+)
 from ragg_runtime.identification.omnibus import Omnibus, Remainder, Scores
+from ragg_runtime.io.record import RATES
 from ragg_runtime.signals.fir import filter_columns
 
 Array = NDArray[np.float64]
@@ -57,8 +68,7 @@ def propose_formulas(f: Fitted, given: Sequence[int], left: Remainder) -> Remain
 
 
 def _of_flight(f: Fitted, flight: int, given: Sequence[int], search: Omnibus) -> Omnibus:
-    whole = whitening.make_projector(f.r_factors[flight], f.n_base, given, f.to_nominal)
-    prepared, projector, _ = whole.lean(f.prepared[flight])
+    prepared, projector, _ = omnibus.project_out(f, flight, given)
     known = omnibus.make_dictionary(prepared)
     terms, tried = _screen(prepared, projector, known)
     terms += [t.term for t in search.steady]
@@ -80,7 +90,7 @@ def _screen(x: PreparedFlight, projector: Projector, known: Dictionary) -> tuple
     d = known.with_terms([Term(h, s) for s, h in product(stages, turns)])
     first = Scores(x, projector, dictionary=d)
     back = _filter_back(x, first.collect(lambda piece, y: (piece.sample, y)))
-    gain = (first.sums.norm2 / first.sums.raw[1]).reshape(len(stages), len(turns))
+    gain = (first.norm2 / first.raw[1]).reshape(len(stages), len(turns))
     named = (f"{function}({n})" for function in ("square", "sign", "abs") for n in d.channels)
     d = d.with_terms([ONE, *(Term("const", (n,)) for n in (*d.channels, *named))])
     dots, squares = _sum_products(x, d, stages, turns, back)
@@ -166,3 +176,97 @@ def _filter_back(x: PreparedFlight, parts: Sequence[tuple[NDArray[np.intp], Arra
     for own, w, taps in zip(y, noise.weights(o.weights), noise.taps(MEMORY), strict=True):
         found += filter_columns(np.ascontiguousarray(own[None, ::-1]), np.asarray(w * taps))[0, ::-1]
     return noise.divide(found, level, filtered=False)
+
+
+# --- a term as an effect of the user's own: a line for ``effects`` in model.toml, and what the flight must have for it
+
+_FUNCTION_NAMES = {"abs": "absolute value", "sign": "sign", "square": "square"}
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
+
+
+def write_effect(term: Term, centre: Mapping[str, float], unit: str) -> str | None:
+    """The effect as one line of model.toml; ``None`` if a channel's name is not possible in an expression, or it is made of the output.
+
+    ``centre`` are the means that auxiliary channels enter less; ``unit`` is that of the term's channels.
+    """
+    if any(OUTPUT in series_name.list_channels(series_name.series(n)) for n in term.channels):
+        return None  # no stage sees the output
+    # of the only channel of a term that does not turn the mean is a parameter of the model; elsewhere it would be a further term
+    alone = term.harmonic == "const" and sum(n in centre for n in term.channels) == 1
+    factors: list[str] = []
+    for name in dict.fromkeys(term.channels):
+        s = series_name.series(name)
+        plain = alone and isinstance(s, ChannelName)
+        text = _write_series(s, {} if plain else centre)
+        if text is None:
+            return None
+        n = term.channels.count(name)
+        text = f"({text})" if " " in text and isinstance(s, ChannelName) else text
+        factors.append(text if n == 1 else f"{text}**{n}")
+    product = "*".join(("K_x", *factors, *_write_carrier(term.harmonic)))
+    return f'{{ id = "my-effect", stage = "transducer", add = "{product}", K_x = {{ unit = "{unit}" }} }}'
+
+
+def list_effect_columns(term: Term) -> list[str]:
+    """In words: the columns that a flight must have for :func:`write_effect`, since an expression has only the values of one instant."""
+    found = {}
+    for name in term.channels:
+        s = series_name.series(name)
+        while isinstance(s, Function):
+            s = s.of
+        if not isinstance(s, ChannelName) and str(s) not in RATES:
+            found[_name_column(s)] = f"{_name_column(s)} ({describe_series(s)})"
+    return list(found.values())
+
+
+def describe_series(s: Series) -> str:
+    """What a series is."""
+    match s:
+        case ChannelName(name):
+            return name
+        case Derivative(of, order):
+            return f"{'second ' if order == 2 else ''}time derivative of {of}"
+        case Function(name, of):
+            return f"{_FUNCTION_NAMES[name]} of {_describe_centred(of)}"
+        case Product(factors):
+            return " times ".join(_describe_centred(x) for x in factors)
+        case Relaxation(of, seconds):
+            return f"{describe_series(of)} through a relaxation of {seconds} s"
+
+
+def _describe_centred(s: Series) -> str:
+    recorded = isinstance(s, ChannelName) and s.name not in (*MOTION, *FORCES)
+    return f"{describe_series(s)}{' less its mean' if recorded else ''}"
+
+
+def _name_column(s: Series) -> str:
+    """Name for a column of the flight that holds a series which no expression can form."""
+    if isinstance(s, Relaxation):
+        return "slow_" + re.sub(r"[( ]", "_", str(s.of)).replace(")", "")
+    return str(s)
+
+
+def _write_series(s: Series, centre: Mapping[str, float]) -> str | None:
+    if isinstance(s, Function):
+        inner = _write_series(s.of, centre)
+        return None if inner is None else f"{s.name}({inner})"
+    text = _name_column(s)
+    if not _NAME.fullmatch(text):
+        return None
+    mean = centre.get(str(s), 0.0)
+    return text if not mean else f"{text} {'-' if mean > 0 else '+'} {abs(mean):.6g}"
+
+
+def _write_carrier(name: str) -> tuple[str, ...]:
+    """A harmonic of the disc angle as a polynomial in cos_phi and sin_phi (de Moivre)."""
+    h = series_name.harmonic(name)
+    k = h.multiple
+    if not k:
+        return ()
+    terms = []
+    # powers of i sin phi: real for cos, imaginary for sin
+    for n in range(0 if h.function == "cos" else 1, k + 1, 2):
+        factor = comb(k, n) * (-1) ** (n // 2)
+        powers = [f"{name}**{e}" if e > 1 else name for name, e in (("cos_phi", k - n), ("sin_phi", n)) if e]
+        terms.append("*".join([*([] if factor == 1 else [str(factor)]), *powers]))
+    return (terms[0],) if len(terms) == 1 else (f"({' + '.join(terms)})",)

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +12,7 @@ from scipy import special
 from ragg_runtime.estimation.noise import score_excess
 from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.estimation.scores import log_sf
-from ragg_runtime.estimation.whitening import Piece
+from ragg_runtime.estimation.whitening import Piece, PreparedFlight
 
 Array = NDArray[np.float64]
 
@@ -38,6 +37,14 @@ def log_bayes(chi2: Array | float, rank: Array | float) -> Array:
     return np.asarray(top + np.log(np.mean(np.exp(each - top[..., None]), axis=-1)))
 
 
+def weigh(chi2: float, rank: float, charge: float = 0.0, spread: float = 1.0) -> float:
+    """Log evidence of an explanation of a chi-square with so many coefficients.
+
+    ``charge``: logarithm of the number of choices that it was; ``spread``: variance of the scores, 1 of noise alone.
+    """
+    return float(log_bayes(chi2 / spread, rank)) - charge
+
+
 @dataclass(frozen=True)
 class Test:
     """A likelihood-ratio test of some columns: chi-square with ``rank`` degrees of freedom; ``log_p`` is corrected for the number
@@ -59,7 +66,7 @@ class Test:
 
     def weigh_alone(self, inflation: float = 1.0) -> float:
         """Log evidence of its columns, as if no others had been tried, its scores varying so much more than they should."""
-        return float(log_bayes(self.chi2 / inflation, self.rank))
+        return weigh(self.chi2, self.rank, spread=inflation)
 
 
 def project(T: Array, onto: int) -> Array:
@@ -90,31 +97,35 @@ def list_sub_blocks(columns: Sequence[tuple[int, Column]]) -> list[tuple[tuple[i
     """Ways in which an effect may be present, each with the number of its kind: all its parameters; those of one accelerometer; one
     parameter in all accelerometers; one single value.
     """
-    return [(tuple(columns[k][0] for k in block), count) for block, count in _list_ways(_kinds(columns))]
-
-
-Kinds = tuple[tuple[int | None, str], ...]
-
-
-def _kinds(columns: Sequence[tuple[int, Column]]) -> Kinds:
-    return tuple((c.accelerometer, c.name) for _, c in columns)
-
-
-@lru_cache(maxsize=1024)
-def _list_ways(kinds: Kinds) -> list[tuple[tuple[int, ...], int]]:
-    """:func:`list_sub_blocks` of columns of these accelerometers and names, by their places: the same for every record."""
-    every = tuple(range(len(kinds)))
-    families: list[list[tuple[int, ...]]] = [[every]]
+    every = tuple(n for n, _ in columns)
     by_accelerometer: dict[int | None, list[int]] = {}
     by_name: dict[str, list[int]] = {}
-    for n, (accelerometer, name) in enumerate(kinds):
-        by_accelerometer.setdefault(accelerometer, []).append(n)
-        by_name.setdefault(name, []).append(n)
+    for n, c in columns:
+        by_accelerometer.setdefault(c.accelerometer, []).append(n)
+        by_name.setdefault(c.name, []).append(n)
+    families: list[list[tuple[int, ...]]] = [[every]]
     for groups in (by_accelerometer.values(), by_name.values(), [[n] for n in every]):
         family = [tuple(g) for g in groups]
-        if len(family) > 1 and not any(set(family) == set(f) for f in families):
+        if len(family) > 1 and family not in families:
             families.append(family)
     return [(block, len(family) * len(families)) for family in families for block in family]
+
+
+@dataclass(frozen=True)
+class Way:
+    """A way in which an effect may be present: its columns, orthonormal directions (rows, k) of them, and the number of its kind."""
+
+    which: tuple[int, ...]
+    Q: Array
+    count: int
+
+
+def list_ways(
+    P: Array, columns: Sequence[tuple[int, Column]], floor: Array, weakest: float = WEAKEST
+) -> list[Way]:
+    """The ways in which an effect of these columns may be present, of which each can be tested."""
+    found = (Way(block, find_basis(P, block, floor, weakest), n) for block, n in list_sub_blocks(columns))
+    return [w for w in found if w.Q.shape[1]]
 
 
 def test(
@@ -127,39 +138,23 @@ def test(
     """The best of an effect's sub-blocks, its p-value corrected for their number (and by ``penalty``); ``freedom`` is the noise's."""
     every = [n for n, _ in columns]
     # of hundreds of rows only those matter in which the effect's columns, triangular, are not zero
-    small, low = np.asarray(np.linalg.qr(P[:, [*every, -1]], mode="r")), floor[every]
-    squares, along = np.sum(small[:, :-1] ** 2, axis=0), small[:, -1] @ small[:, :-1]
-    seen = squares > low**2
-    alone = np.where(seen, along**2 / np.where(seen, squares, 1.0), 0.0).tolist()
-    blocks, counts = zip(*_list_ways(_kinds(columns)), strict=True)
-    chi2, rank = np.array(
-        [(alone[b[0]], int(seen[b[0]])) if len(b) == 1 else measure_explained(small, b, low) for b in blocks]
-    ).T
-    charge = np.log(counts) + penalty
+    small = np.asarray(np.linalg.qr(P[:, [*every, -1]], mode="r"))
+    ways = list_ways(small, [(k, c) for k, (_, c) in enumerate(columns)], floor[every])
+    if not ways:
+        return Test(chi2=0.0, rank=0, log_p=0.0, which=tuple(every))
+    chi2 = np.array([np.sum((small[:, -1] @ w.Q) ** 2) for w in ways])
+    rank = np.array([w.Q.shape[1] for w in ways])
+    charge = np.log([w.count for w in ways]) + penalty
     evidence = log_bayes(chi2, rank) - charge
-    k = int(np.argmax(np.where(rank > 0, evidence, -np.inf)))
+    k = int(np.argmax(evidence))
     log_p = min(0.0, log_sf(float(chi2[k]), int(rank[k]), freedom) + float(charge[k]))
-    return Test(float(chi2[k]), int(rank[k]), log_p, tuple(every[n] for n in blocks[k]), float(evidence[k]))
+    return Test(
+        float(chi2[k]), int(rank[k]), log_p, tuple(every[n] for n in ways[k].which), float(evidence[k])
+    )
 
 
 DRAWS = 1000
 """Records of noise that tell how many independent tests the catalogue is: at a level of 0.03 thirty of them err, a fifth either way."""
-
-
-@dataclass(frozen=True)
-class Way:
-    """A way in which an effect may be present: orthonormal directions (rows, k), and the number of its kind."""
-
-    Q: Array
-    count: int
-
-
-def list_ways(
-    P: Array, columns: Sequence[tuple[int, Column]], floor: Array, weakest: float = WEAKEST
-) -> list[Way]:
-    """The ways in which an effect of these columns may be present, of which each can be tested."""
-    found = [Way(find_basis(P, block, floor, weakest), count) for block, count in list_sub_blocks(columns)]
-    return [w for w in found if w.Q.shape[1]]
 
 
 def estimate_effective_number(effects: Sequence[Sequence[Way]], level: float) -> float:
@@ -186,31 +181,90 @@ def estimate_effective_number(effects: Sequence[Sequence[Way]], level: float) ->
     return max(1.0, float(np.log1p(-level) / np.log1p(-min(x, level))))
 
 
-@dataclass(frozen=True)
-class Variance:
-    """Sums over samples for a score test of a random effect: is the residual larger where it would show, and nowhere else?
+def sum_variances(piece: Piece, place: int, residual: Array) -> Array:
+    """Sums over a segment for a score test of a random effect: is the residual larger where it would show, and nowhere else?
 
-    ``gram`` (k + 2, k + 2): inner products of what the noise's own variance may follow (k), of the effect's variance, and of the
-    squared residual (:func:`noise.score_excess`).
+    (k + 2, k + 2): inner products of what the noise's own variance may follow (k), of the effect's variance, and of the squared
+    residual. ``place`` is the effect's column, ``residual`` (rows,) is whitened and projected.
     """
+    shapes = piece.noise.variance_shapes(piece.observation.record)
+    X = np.vstack([shapes, piece.white[place] ** 2, residual**2])
+    return np.asarray(X @ X.T)
 
-    gram: Array
+
+def test_variance(gram: Array) -> Test:
+    """Score test of the variance, with the residual's own fourth moment, so that heavy tails raise no alarm."""
+    z, _ = score_excess(gram)
+    chi2 = max(z, 0.0) ** 2
+    return Test(chi2, 1, float(special.log_ndtr(-z)), (0,), weigh(chi2, 1))
+
+
+# --- uneven noise. A likelihood-ratio test trusts that whitened noise has unit variance everywhere. Where the noise's level was seen
+# to change (``estimation.noise``) the weights are estimates by groups, tails are heavy, and a term that is large in a few swings of the
+# motion rides on them. The squares of the residual, weighted by those of what is tested, give the real variance of its score (H. White,
+# Econometrica 48, 1980): its ratio to what unit variance gives divides chi-square (J. N. K. Rao, A. J. Scott, Ann. Stat. 12, 1984,
+# first-order correction). It is known from as many samples as carry the score (F. Satterthwaite, Biometrics 2, 1946): the test then
+# follows Fisher's F, as one of a variance that was estimated.
+
+DIRECTIONS = 1e-7
+"""Relative size below which a direction of the tested columns is rounding."""
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """How much more than they should the scores of some tests vary, (m,), and the degrees of freedom (m,) that tell it."""
+
+    inflation: Array
+    freedom: Array
 
     @staticmethod
-    def of(piece: Piece, place: int, residual: Array) -> Variance:
-        """Of a segment; ``place`` is the effect's column, ``residual`` (rows,) is whitened and projected."""
-        X = np.vstack(
-            [piece.noise.variance_shapes(piece.observation.record), piece.white[place] ** 2, residual**2]
-        )
-        return Variance(X @ X.T)
+    def of(direction: Array, left: Array) -> Array:
+        """(3, m): the sums over samples that it follows from: directions (rows, m), and what is left beside each (rows, m)."""
+        square = direction**2
+        return np.stack([np.sum(square, axis=0), np.sum(square**2, axis=0), np.sum(square * left**2, axis=0)])
 
-    def test(self) -> Test:
-        """Score test of the variance, with the residual's own fourth moment, so that heavy tails raise no alarm."""
-        z, _ = score_excess(self.gram)
-        chi2 = max(z, 0.0) ** 2
-        return Test(chi2, 1, float(special.log_ndtr(-z)), (0,), float(log_bayes(chi2, 1)))
+    @staticmethod
+    def from_sums(sums: Array) -> Scatter:
+        """Of the sums (3, m) of all samples."""
+        square, fourth, score = sums
+        return Scatter(np.maximum(1.0, score / square), square**2 / fourth)
 
 
-def pool_variances(parts: Sequence[Variance]) -> Variance:
-    """The sums of several segments or flights together."""
-    return Variance(np.sum([p.gram for p in parts], axis=0))
+def measure_scatter(
+    T: Array, flights: Sequence[PreparedFlight], given: Sequence[int], tests: Sequence[Sequence[int]]
+) -> Scatter:
+    """Of each of some tests, of so many columns of an R factor [columns | data], beside those ``given``: along what is fitted, beside it,
+    so that what is tested raises no doubt of itself. ``flights``: those that the R factor is of.
+    """
+    # (given, columns + 1): what those given explain of every column, and of the data
+    B = np.linalg.lstsq(T[:, given], T, rcond=None)[0]
+    n, columns = len(given), sorted({k for tested in tests for k in tested})
+    along, left = np.zeros((2, n + len(columns), len(tests)))
+    for m, tested in enumerate(tests):
+        X, y = (T[:, k] - T[:, given] @ B[:, k] for k in (tested, [-1]))
+        g = np.linalg.lstsq(X, y, rcond=DIRECTIONS)[0][:, 0]
+        along[[n + columns.index(k) for k in tested], m] = g
+        along[:n, m] = -B[:, tested] @ g
+        left[:, m] = -along[:, m]
+        left[:n, m] -= B[:, -1]
+    sums = np.zeros((3, len(tests)))
+    for x in flights:
+        lean, own = x.lean([*given, *columns])
+
+        def of(piece: Piece, own: Sequence[int] = own) -> Array:
+            X = piece.white[own].T
+            return Scatter.of(X @ along, piece.white[-1][:, None] + X @ left)
+
+        sums += sum(lean.each(of))
+    return Scatter.from_sums(sums)
+
+
+def temper_test(t: Test, by: float, known: float, freedom: float = np.inf) -> Test:
+    """A test whose chi-square is divided by the variance of its scores, ``known`` from so many degrees of freedom, where the noise is
+    from ``freedom``; corrections for variants stay.
+    """
+    if by <= 1.0:
+        return t
+    change = log_sf(t.chi2 / by, t.rank, min(freedom, known)) - log_sf(t.chi2, t.rank, freedom)
+    less = t.weigh_alone() - t.weigh_alone(by)
+    return replace(t, log_p=min(0.0, t.log_p + change), log_b=t.log_b - less, inflation=by)

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.base.progress import split_range
-from ragg_runtime.estimation import unknown_gradient, whitening
+from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector
-from ragg_runtime.identification import selection
+from ragg_runtime.identification import omnibus
 from ragg_runtime.identification.dictionary import Term
 from ragg_runtime.identification.omnibus import Remainder, ResidualTerm
 from ragg_runtime.identification.strong import AddedEffect, Stage
@@ -96,53 +96,35 @@ def find_line_rival(
     those that are no more than one.
     """
     steady = []
-    for c in _list_contested(steps, last):
-        line = find_best_line(c.fitted, c.beside)
+    for effects, chi2, fitted, beside, others in _list_contested(steps, last):
+        line = find_best_line(fitted, beside)
         if line is None:
             continue
-        if line.replaces(c.chi2):
-            return LineAlternative(line=line, effects=c.effects, own=c.chi2), ()
-        steady += _find_steady(c, line)
+        if line.replaces(chi2):
+            return LineAlternative(line=line, effects=effects, own=chi2), ()
+        # a line at the very multiple explains as much, or all but a small part
+        at_multiple, enough = line.chi2 - line.slip, chi2 - INDISTINGUISHABLE
+        if len(effects) == 1 and at_multiple >= min(enough, CONSTANT * chi2):
+            steady.append(line.as_steady(effects[0], others, fitted, exactly=at_multiple >= enough))
     return None, tuple(steady)
 
 
-@dataclass(frozen=True)
-class _Contested:
-    """Effects, the chi-square that they explain of a fit ``beside`` other candidate columns, and what would do as well."""
-
-    effects: tuple[str, ...]
-    chi2: float
-    fitted: Fitted
-    beside: Sequence[int] = ()
-    others: tuple[str, ...] = ()
+Contested = tuple[tuple[str, ...], float, Fitted, Sequence[int], tuple[str, ...]]
+"""Effects, the chi-square that they explain of a fit, beside other candidate columns of it, and what would do as well."""
 
 
-def _list_contested(steps: Sequence[AddedEffect], last: Stage) -> Iterator[_Contested]:
+def _list_contested(steps: Sequence[AddedEffect], last: Stage) -> Iterator[Contested]:
     """The effects that were derived into the model, all of the last stage, as two follow a line farther than one does, and each."""
     for t in steps:
-        yield _Contested((t.effect,), t.test.chi2, t.before, others=t.alternatives)
+        yield (t.effect,), t.test.chi2, t.before, (), t.alternatives
     problem, chosen = last.problem, last.chosen
-    alternatives = selection.find_alternatives(problem, chosen)
     whole, _ = problem.joint([*chosen.values()])
     every = [tuple(chosen)] if len(chosen) > 1 else []
     for effects in (*every, *((e,) for e in chosen)):
         others = [o for o in chosen if o not in effects]
         chi2 = whole - problem.joint([chosen[o] for o in others])[0]
         beside = [n for o in others for n, _ in problem.candidates[o]]
-        yield _Contested(effects, chi2, last.fitted, beside, alternatives[effects[0]])
-
-
-def _find_steady(c: _Contested, line: NearLine) -> list[Steady]:
-    """The effect, if a line at the very multiple explains as much, or all but a small part."""
-    at_multiple, enough = line.chi2 - line.slip, c.chi2 - INDISTINGUISHABLE
-    if len(c.effects) > 1 or at_multiple < min(enough, CONSTANT * c.chi2):
-        return []
-    r = c.fitted.prepared[0].observation.record
-    turns = round(line.frequency / r.spin_frequency)
-    # Cramer-Rao: 12 over the square of duration and of signal to noise, rad/s (Rife and Boorstyn, IEEE Trans. IT 20, 1974)
-    width = 3.0 * float(np.sqrt(12.0 / line.chi2)) / (2 * np.pi * float(r.time[-1] - r.time[0]))
-    frequency = turns * r.spin_frequency
-    return [Steady(c.effects[0], c.others, turns, frequency, width if at_multiple >= enough else None)]
+        yield effects, chi2, last.fitted, beside, last.alternatives[effects[0]]
 
 
 MULTIPLES = (1, 2, 3, 4)
@@ -181,6 +163,14 @@ class NearLine:
         explains = self.chi2 >= chi2 - INDISTINGUISHABLE and self.log_p <= np.log(false_alarms.REMAINDER)
         return bool(self.slip >= SLIP and explains)
 
+    def as_steady(self, effect: str, others: tuple[str, ...], f: Fitted, *, exactly: bool) -> Steady:
+        """An effect that explains what the line does; ``exactly``: as one at the very multiple does."""
+        r = f.prepared[0].observation.record
+        turns = round(self.frequency / r.spin_frequency)
+        # Cramer-Rao: 12 over the square of duration and of signal to noise, rad/s (Rife and Boorstyn, IEEE Trans. IT 20, 1974)
+        width = 3.0 * float(np.sqrt(12.0 / self.chi2)) / (2 * np.pi * float(r.time[-1] - r.time[0]))
+        return Steady(effect, others, turns, turns * r.spin_frequency, width if exactly else None)
+
 
 def find_best_line(f: Fitted, given: Sequence[int]) -> NearLine | None:
     """The sinusoid next to a multiple of the spin rate that explains most, base and ``given`` candidate columns projected out.
@@ -189,11 +179,10 @@ def find_best_line(f: Fitted, given: Sequence[int]) -> NearLine | None:
     """
     if len(f.prepared) != 1 or f.observations[0].recorded.demodulated:
         return None
-    x = f.prepared[0]
+    x, projector, _ = omnibus.project_out(f, 0, given)
     r = x.observation.record
     if not r.turning:
         return None
-    x, projector, _ = whitening.make_projector(f.r_factors[0], f.n_base, given).lean(x)
     width = 1.0 / float(r.time[-1] - r.time[0])
     offsets = np.arange(-REACH, REACH + STEP / 2, STEP) * width
     found = np.concatenate([m * r.spin_frequency + offsets for m in MULTIPLES])

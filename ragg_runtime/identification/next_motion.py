@@ -1,8 +1,7 @@
-"""Which motion to fly next: sinusoids about the axes, within limits, that separate what the flights cannot, or that calibrate best.
+"""Which motion to fly next: sinusoids about the axes, within limits, that separate what the flights cannot.
 
 A motion adds rows to the R factor of the flights, from which all criteria are read (A. Atkinson, A. Donev, R. Tobias, Optimum
-Experimental Designs, 2007, ch. 10 and 21): how far effects are separated (D_s-optimal, compound over all pairs), what the
-parameters add to the variance of the compensated channels (A-optimal), or the volume of what they leave uncertain there (D-optimal).
+Experimental Designs, 2007, ch. 10 and 21), as how far effects are separated (D_s-optimal, compound over all pairs).
 Its frequencies are found by exchange, one axis after the other (R. Meyer and C. Nachtsheim, Technometrics 37, 1995).
 
 Separation is what of one effect's signal neither the model nor the other effect can imitate, in standard deviations: the root mean
@@ -18,18 +17,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import linalg
 
-from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.progress import one_thread
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.least_squares import compute_r_factor, orthonormalise
-from ragg_runtime.estimation.observation import combine_output
 from ragg_runtime.estimation.regressors import linearise
-from ragg_runtime.estimation.scores import demodulate_residual
-from ragg_runtime.estimation.whitening import Piece
-from ragg_runtime.identification.parameters import find_combinations
 from ragg_runtime.identification.selection import ProjectedProblem
 from ragg_runtime.io.record import is_disc_angle
 
@@ -84,9 +77,6 @@ ALTERNATIVES = 3
 DETERMINED = 3.0
 """Information of the flights about a direction, over that of the prior, from which it is determined: its standard deviation is
 halved."""
-
-MATTER = 1e-3
-"""Share of the channels' variance by parameters below which a direction does not count for D: its volume would be of nothing."""
 
 STRENGTHS = np.logspace(0.0, 12.0, 49)
 """Prior variances of the coefficients that are tried, over the variance with which flights determine the best direction."""
@@ -400,83 +390,3 @@ def propose_motions(
             motion = (axis, frequency / spin, frequency, amplitude, unit, DURATION)
             found.append(Proposal(s.effect, s.rival, *motion, s.now, s.then, s.spread))
     return found
-
-
-# --- the motion that calibrates ------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class ChannelVariance:
-    """How uncertain parameters show in the compensated channels of the motion of the flights.
-
-    ``shown`` (2, n, n): R factors of the mean product of the changes of inline, and of cross, Eo, by a scale of each parameter.
-    """
-
-    known: Knowledge
-    shown: Array
-
-    @staticmethod
-    def of(f: Fitted) -> ChannelVariance:
-        """Of the first flight of a fit; UserError if it has no channels."""
-        x, n, k_ggi = f.prepared[0], f.n_base, f.scales[0]
-
-        def changes(piece: Piece) -> Array:
-            o = piece.observation
-            volts = combine_output(o, piece.columns[:n])
-            g = np.array([demodulate_residual(e, o.record, k_ggi) for e in volts])
-            return np.stack([g.real, g.imag], axis=1)[:, :, np.isfinite(g[0])]
-
-        found = np.concatenate([*x.each(changes, whitened=False)], axis=2)  # (n, 2, instants)
-        if not found.shape[2]:
-            raise UserError(
-                "no motion can be designed: the flight is too short to demodulate, or its disc does not turn",
-                where=x.observation.name,
-                remedy="give a longer flight of the motion that is to be compensated",
-            )
-        shown = np.stack([compute_r_factor(found[:, k]) for k in range(2)]) / np.sqrt(found.shape[2])
-        return ChannelVariance(Knowledge.of(f), np.asarray(shown))
-
-    def rms(self, R: Array) -> tuple[float, float]:
-        """What the parameters of an R factor add to inline and cross, Eo."""
-        inline, cross = (float(np.linalg.norm(G @ _invert(R))) for G in self.shown)
-        return inline, cross
-
-    def weigh_variance(self, R: Array) -> float:
-        """A-criterion: the less variance, the more."""
-        return -sum(x**2 for x in self.rms(R))
-
-    def weigh_volume(self, R: Array) -> float:
-        """D-criterion: the less volume of the directions that make up the channels' variance by the flights so far, the more."""
-        shown = np.vstack([*self.shown])
-        U, s, _ = np.linalg.svd(shown @ _invert(self.known.root), full_matrices=False)
-        matter = U[:, s**2 > MATTER * np.sum(s**2)].T @ shown
-        return -2 * float(np.sum(np.log(np.linalg.svd(matter @ _invert(R), compute_uv=False))))
-
-    def promise(self, motion: Sequence[Sinusoid], duration: float) -> Json:
-        """What so much, s, of a motion promises of the channels, of the parameters, and of combinations of accelerometers."""
-        f, R = self.known.f, {"now": self.known.root, "then": self.known.fly(motion, duration, LONGEST)}
-        root, columns = {when: _invert(x) for when, x in R.items()}, f.calibration.columns
-
-        def std(w: Array, when: str = "then") -> float:
-            return float(np.linalg.norm(w @ root[when]))
-
-        def describe(name: str, accelerometer: int | None, unit: str, w: Array) -> Json:
-            known = {"name": name, "accelerometer": accelerometer, "unit": unit}
-            return known | {when: std(w, when) for when in R}
-
-        alone = np.diag([q.scale / q.unit_factor for q in columns])
-        channels = {"now": self.rms(R["now"]), "planned": self.rms(R["then"])}
-        return {
-            "channels": {k: {"inline_Eo": x, "cross_Eo": y} for k, (x, y) in channels.items()},
-            "parameters": [
-                describe(q.name, q.accelerometer, q.unit, w) for q, w in zip(columns, alone, strict=True)
-            ],
-            "combinations": [
-                describe(q.name, None, q.unit, q.weights)
-                for q in find_combinations(f.model, f.calibration.p, columns, std)
-            ],
-        }
-
-
-def _invert(R: Array) -> Array:
-    return np.asarray(linalg.solve_triangular(R, np.eye(len(R))))

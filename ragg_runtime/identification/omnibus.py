@@ -8,9 +8,9 @@ over the segments of a flight.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,15 +22,16 @@ from ragg_runtime.estimation.noise_estimate import compute_line_width
 from ragg_runtime.estimation.regressors import predict_observed
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector
-from ragg_runtime.identification.dictionary import Dictionary, Directions, Term, multiply, sum_squares
-from ragg_runtime.identification.features import find_term_unit
-from ragg_runtime.identification.likelihood_ratio import Variance, pool_variances
-from ragg_runtime.identification.spectral_line import Periodogram
-from ragg_runtime.identification.time_varying import BlockScores
-from ragg_runtime.identification.uneven import Scatter
+from ragg_runtime.identification.dictionary import (
+    Dictionary,
+    Term,
+    find_term_unit,
+    whiten_terms,
+)
+from ragg_runtime.identification.likelihood_ratio import Scatter, Test, sum_variances, test_variance
+from ragg_runtime.identification.time_varying import BlockScores, Periodogram
 
 Array = NDArray[np.float64]
-Singles = NDArray[np.float32]
 T = TypeVar("T")
 
 FAMILY = false_alarms.REMAINDER
@@ -115,30 +116,12 @@ class Omnibus:
         return bool(self.log_p < np.log(FAMILY))
 
 
-class Sums:
-    """What the search needs of every term: sums over segments."""
-
-    def __init__(self, terms: int, basis: int, blocks: BlockScores, spectrum: Periodogram) -> None:
-        self.dot = np.zeros(terms)
-        self.along = np.zeros((terms, basis))
-        self.norm2 = np.zeros(terms)
-        self.raw = np.zeros((2, terms))
-        self.samples = 0
-        self.square = 0.0
-        self.blocks, self.spectrum = blocks, spectrum
-
-    def join(self, other: Sums) -> None:
-        """Count in the sums of further segments."""
-        for name in ("dot", "along", "norm2", "raw"):
-            getattr(self, name)[...] += getattr(other, name)
-        self.samples += other.samples
-        self.square += other.square
-        self.blocks.join(other.blocks)
-        self.spectrum.join(other.spectrum)
-
-
 class Scores:
-    """The dictionary of a flight against its whitened residual, base and chosen effects projected out."""
+    """The dictionary of a flight against its whitened residual, base and chosen effects projected out.
+
+    Sums over segments: of every term its inner products with the residual (``dot``), with the basis of what is projected out (``along``)
+    and with itself (``norm2``), and the sum and the square of its plain series (``raw``); the residual's ``square``.
+    """
 
     def __init__(
         self,
@@ -148,99 +131,81 @@ class Scores:
         dictionary: Dictionary | None = None,
     ) -> None:
         self.prepared, self.projector, self.only = prepared, projector, only
-        o = prepared.observation
+        o, r = prepared.observation, prepared.observation.record
         self.dictionary = dictionary or make_dictionary(prepared)
-        self._excluded = None
+        count = len(self.dictionary.terms)
+        self.dot, self.norm2, *self.raw = np.zeros((4, count))
+        self.along = np.zeros((count, len(projector.along)))
+        self.samples, self.square = 0, 0.0
+        excluded = None
         if unknown_gradient.is_unknown(o):  # there nothing is left of the noise either
-            double, width = 2 * o.record.spin_frequency, 2 / unknown_gradient.KNOT_SECONDS
-            self._excluded = (double - width, double + width)
-        self._longest = max(rows.stop - rows.start for rows in o.segments)
-        self.sums = self._zero()
-
-    def _zero(self) -> Sums:
-        return Sums(
-            len(self.dictionary.terms),
-            len(self.projector.along),
-            BlockScores(self.dictionary.first_order, self.prepared.observation.record.time),
-            Periodogram(self._longest, self.prepared.observation.record.rate, self._excluded),
-        )
+            double, width = 2 * r.spin_frequency, 2 / unknown_gradient.KNOT_SECONDS
+            excluded = (double - width, double + width)
+        self.blocks = BlockScores(self.dictionary.first_order, r.time)
+        self.spectrum = Periodogram(max(rows.stop - rows.start for rows in o.segments), r.rate, excluded)
 
     def collect(self, further: Callable[[Piece, Array], T]) -> list[T]:
         """Count in the whole flight, in one pass; what ``further`` makes of every segment and its whitened, projected residual."""
 
-        def both(piece: Piece) -> tuple[Sums, T]:
+        def count_in(piece: Piece) -> T:
             Q = self.projector.basis(piece)
             y = self.projector.left(piece, Q)
-            return self._sum_segment(piece, y, Q), further(piece, y)
+            self._add(piece, y, Q)
+            return further(piece, y)
 
-        found = []
-        for sums, more in self.prepared.each(both):
-            self.sums.join(sums)
-            found.append(more)
-        return found
+        return [*self.prepared.each(count_in)]
 
-    def _sum_segment(self, piece: Piece, y: Array, Q: Array) -> Sums:
-        """The sums of one segment; y (rows,) is what the projector, with basis Q (rows, k), leaves of it."""
-        s = self._zero()
-        s.square = float(y @ y)
-        s.samples = int(np.sum(piece.observation.record.valid))
+    def _add(self, piece: Piece, y: Array, Q: Array) -> None:
+        """Count in one segment; y (rows,) is what the projector, with basis Q (rows, k), leaves of it."""
+        self.square += float(y @ y)
+        self.samples += int(np.sum(piece.observation.record.valid))
+        self.blocks.level(piece, y)
+        self.spectrum.add(piece, y)
         right = np.column_stack([y, Q])
-        ones = np.ones((len(piece.observation.record.time), 1))
-        s.blocks.level(piece, y)
-        s.spectrum.add(piece, y)
-        singles = right.astype(np.float32)
-        for at, x, X in Directions(self.prepared, self.dictionary, piece, self.only).whitened(
-            self.dictionary.terms
-        ):
-            inner = multiply(X, singles)
-            s.dot[at] = inner[:, 0]
-            s.along[at] = inner[:, 1:]
-            s.norm2[at] = sum_squares(X)
-            s.blocks.add(piece, y, at, X)
-            s.raw[0, at] = multiply(x, ones)[:, 0]
-            s.raw[1, at] = sum_squares(x)
-        return s
+        for at, x, X in self._whitened(piece, self.dictionary.terms):
+            inner = X @ right
+            self.dot[at] += inner[:, 0]
+            self.along[at] += inner[:, 1:]
+            self.norm2[at] += np.einsum("ij,ij->i", X, X)
+            self.blocks.add(piece, y, at, X)
+            self.raw[0][at] += np.sum(x, axis=1)
+            self.raw[1][at] += np.einsum("ij,ij->i", x, x)
+
+    def _whitened(self, piece: Piece, terms: Sequence[Term]) -> Iterator[tuple[slice, Array, Array]]:
+        return whiten_terms(self.prepared, self.dictionary, piece, terms, self.only)
 
     @property
     def norms(self) -> Array:
         """(terms,): lengths of the whitened terms beside what is projected out; infinite where next to nothing is left."""
-        left2 = self.sums.norm2 - np.einsum("ij,ij->i", self.sums.along, self.sums.along)
-        good = left2 > OWN * self.sums.norm2
+        left2 = self.norm2 - np.einsum("ij,ij->i", self.along, self.along)
+        good = left2 > OWN * self.norm2
         return np.asarray(np.sqrt(np.where(good, left2, np.inf)))
 
-    def whitened(self, piece: Piece, places: Sequence[int]) -> Singles:
-        """(len(places), rows): the whitened series of some terms over a segment, in order of their places."""
-        d = Directions(self.prepared, self.dictionary, piece, self.only)
-        terms = [self.dictionary.terms[k] for k in sorted(places)]
-        return np.concatenate([X for _, _, X in d.whitened(terms)])
+    def whitened(self, piece: Piece, places: Iterable[int]) -> Array:
+        """(places, rows): the whitened series of some terms over a segment."""
+        terms = [self.dictionary.terms[k] for k in places]
+        return np.concatenate([X for _, _, X in self._whitened(piece, terms)])
 
-    def gram(self, places: Sequence[int]) -> Array:
+    def gram(self, places: NDArray[np.intp]) -> Array:
         """Inner products of some whitened terms, base projected out, by another pass over the flight."""
 
         def inner(piece: Piece) -> Array:
             X = self.whitened(piece, places)
             return np.asarray(X @ X.T)
 
-        G = np.zeros((len(places), len(places)))
-        for part in self.prepared.each(inner):
-            G += part
-        row = np.argsort(np.argsort(places))  # from ascending places to the order asked for
-        A = self.sums.along[list(places)]
-        return G[np.ix_(row, row)] - A @ A.T
+        A = self.along[places]
+        return np.asarray(sum(self.prepared.each(inner), -A @ A.T))
 
-    def measure_scatter(self, places: Sequence[int]) -> Scatter:
+    def measure_scatter(self, places: NDArray[np.intp]) -> Scatter:
         """How much more than they should the scores of some terms vary, each beside the term itself."""
-        order = np.sort(places)
-        along = self.sums.along[order]
-        coefficient = (self.sums.dot / self.norms**2)[order]
+        along, coefficient = self.along[places], (self.dot / self.norms**2)[places]
 
         def of(piece: Piece) -> Array:
             Q = self.projector.basis(piece)
             X = (self.whitened(piece, places) - along @ Q.T).T
             return Scatter.of(X, self.projector.left(piece, Q)[:, None] - X * coefficient)
 
-        sums = sum(self.prepared.each(of), np.zeros((3, len(order))))
-        return Scatter.from_sums(sums[:, np.argsort(np.argsort(places))])
+        return Scatter.from_sums(sum(self.prepared.each(of), np.zeros((3, len(places)))))
 
 
 def make_dictionary(x: PreparedFlight) -> Dictionary:
@@ -276,12 +241,12 @@ def choose(s: Scores) -> Omnibus:
 
 def _find_varying(s: Scores) -> tuple[float, ResidualTerm] | None:
     """The term that varies most; one that the model has, with one coefficient for the whole flight, may vary as well as any other."""
-    v = s.sums.blocks.best(s.sums.norm2 > 0.0)
+    v = s.blocks.best(s.norm2 > 0.0)
     if v is None:
         return None
     term = s.dictionary.terms[v.place]
     size = s.dictionary.size(term)
-    mean_square = v.coefficient**2 * float(s.sums.raw[1, v.place]) / max(s.sums.samples, 1)
+    mean_square = v.coefficient**2 * float(s.raw[1][v.place]) / max(s.samples, 1)
     z = float(np.sqrt(v.chi2))
     found = ResidualTerm(
         term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying", v.how, rank=v.rank
@@ -293,74 +258,68 @@ def _find_line(s: Scores) -> tuple[float, ResidualTerm] | None:
     """The strongest line of the residual, if it is not next to one that was taken out (of one that wanders something stays)."""
     if s.prepared.observation.recorded.demodulated:
         return None  # their noise is only white within the demodulator's band
-    line = s.sums.spectrum.best()
+    line = s.spectrum.best()
+    if line is None:
+        return None
+    log_p, frequency, share = line
     width = compute_line_width(s.prepared.observation)
-    if line is None or any(abs(line.frequency - q.frequency) < width for q in s.prepared.noise.lines):
+    if any(abs(frequency - q.frequency) < width for q in s.prepared.noise.lines):
         return None
     # back from the whitened residual: the noise's own density at the line
-    volts2 = float(s.prepared.noise_psd(np.array([line.frequency]))[0])
-    amplitude = float(np.sqrt(line.share * volts2 * s.prepared.observation.record.rate))
-    found = ResidualTerm.of_line(line.frequency, amplitude, line.share * s.sums.square)
-    return min(0.0, line.log_p - float(np.log(SHARES[2]))), found
+    volts2 = float(s.prepared.noise_psd(np.array([frequency]))[0])
+    amplitude = float(np.sqrt(share * volts2 * s.prepared.observation.record.rate))
+    return min(0.0, log_p - float(np.log(SHARES[2]))), ResidualTerm.of_line(
+        frequency, amplitude, share * s.square
+    )
 
 
 def pursue(s: Scores, tried: int = 0) -> Omnibus:
     """The largest scores, one by one, while they are significant; ``tried``: of so many terms, if not of the dictionary's alone."""
     norm = s.norms
     tried = tried or int(np.sum(np.isfinite(norm)))
-    z = s.sums.dot / norm
+    z = s.dot / norm
     freedom = s.prepared.noise.freedom
     first = _log_p(z, tried, freedom)
     spread = float(np.sum(z**2)) / max(tried, 1)
-    nothing = Omnibus(log_p=first, tried=tried, terms=(), chi2=0.0, square=s.sums.square, spread=spread)
+    nothing = Omnibus(log_p=first, tried=tried, terms=(), chi2=0.0, square=s.square, spread=spread)
     if first >= np.log(FAMILY):
         return nothing
     places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, int(np.sum(np.isfinite(norm))))]
     sober, known = np.ones(len(places)), np.full(len(places), freedom)
     if s.prepared.noise.uneven:
-        scatter = s.measure_scatter([int(k) for k in places])
+        scatter = s.measure_scatter(places)
         sober, known = np.sqrt(scatter.inflation), np.minimum(freedom, scatter.freedom)
         first = _log_p(z[places] / sober, tried, known)
         if first >= np.log(FAMILY):
             return replace(nothing, log_p=first)
-    G = s.gram([int(k) for k in places]) / np.outer(norm[places], norm[places])
+    G = s.gram(places) / np.outer(norm[places], norm[places])
     order = np.array([s.dictionary.terms[k].order for k in places])
     taken = list(_pursue(z[places], sober, G, order, lambda x: _log_p(x, tried, known)))
     if not taken:
         return replace(nothing, log_p=first)
     # together the terms take so much of each, in whitened units, and with it what of each the columns explain
-    own = [t.k for t in taken]
+    own = [k for k, *_ in taken]
     gram, scores = G[np.ix_(own, own)], z[places[own]]
     each = np.linalg.lstsq(gram, scores, rcond=None)[0] / norm[places[own]]
-    shift = -s.projector.to_basis @ (s.sums.along[places[own]].T @ each)
-    along = s.sums.along[places[own]] / norm[places[own], None]
+    along = s.along[places[own]]
+    explained = s.projector.explained(along / norm[places[own], None], gram, scores)
     return replace(
         nothing,
         log_p=first,
-        terms=tuple(_as_term(s, int(places[t.k]), float(norm[places[t.k]]), t) for t in taken),
-        chi2=sum(t.amount**2 for t in taken),
-        explained=tuple(float(x) for x in s.projector.explained(along, gram, scores)),
-        shift=shift,
+        terms=tuple(_as_term(s, int(places[k]), *found) for k, *found in taken),
+        chi2=sum(amount**2 for _, _, amount, _ in taken),
+        explained=tuple(float(x) for x in explained),
+        shift=-s.projector.to_basis @ (along.T @ each),
     )
-
-
-class _Taken(NamedTuple):
-    """A term of a pursuit: its place in it, its significance then, the component of the residual along what is new in it, and
-    the share of its length that is new.
-    """
-
-    k: int
-    z: float
-    amount: float
-    length: float
 
 
 def _pursue(
     score: Array, sober: Array, G: Array, order: NDArray[np.intp], log_p: Callable[[Array], float]
-) -> Iterator[_Taken]:
+) -> Iterator[tuple[int, float, float, float]]:
     """Orthogonal matching pursuit: the terms with the largest scores (n,) beside those before, while they are significant.
 
-    ``sober`` (n,): what scores are divided by before they are judged; ``G`` (n, n): inner products of the terms of unit length;
+    Of each its place, its significance then, the component of the residual along what is new in it, and the share of its length that is
+    new. ``sober`` (n,): what scores are divided by before they are judged; ``G`` (n, n): inner products of the terms of unit length;
     ``order`` (n,): of terms that do as well the simplest is taken.
     """
     # a term that is almost absorbed: its square is below single precision, and it cannot be separated from another
@@ -379,23 +338,23 @@ def _pursue(
         directions.append(along)
         score = score - along * amount
         left = left - along**2
-        yield _Taken(k, float(now[k]), amount, length)
+        yield k, float(now[k]), amount, length
 
 
-def _as_term(s: Scores, place: int, norm: float, t: _Taken) -> ResidualTerm:
-    """What was taken, in the units of its channels; ``norm``: the length of the whitened term."""
+def _as_term(s: Scores, place: int, z: float, amount: float, length: float) -> ResidualTerm:
+    """What was taken, in the units of its channels."""
     term = s.dictionary.terms[place]
     size = s.dictionary.size(term)
-    std = 1.0 / (norm * t.length * size)
-    mean, square = s.sums.raw[:, place] / max(s.sums.samples, 1)
+    std = 1.0 / (float(s.norms[place]) * length * size)
+    mean, square = (x[place] / max(s.samples, 1) for x in s.raw)
     spread = square - mean**2 if term.harmonic == "const" else square
     return ResidualTerm(
         term=term,
-        coefficient=t.amount * std,
+        coefficient=amount * std,
         std=std,
-        z=t.z,
-        chi2=t.amount**2,
-        mean_square=(t.amount * std * size) ** 2 * float(spread),
+        z=z,
+        chi2=amount**2,
+        mean_square=(amount * std * size) ** 2 * float(spread),
         centre=s.dictionary.centre,
     )
 
@@ -438,22 +397,24 @@ def search_residual(f: Fitted, only: int | None = None) -> Remainder:
 
 def search(
     f: Fitted, given: Sequence[int], random: Mapping[str, int], only: int | None = None
-) -> tuple[Remainder, dict[str, Variance]]:
-    """The same with ``given`` candidate columns, and the sums of ``random`` effects, of which it has the places of their columns."""
-    searches, counted = [], []
-    for x, r_factors in zip(f.prepared, f.r_factors, strict=True):
-        lean, projector, places = whitening.make_projector(r_factors, f.n_base, given, f.to_nominal).lean(
-            x, [*random.values()]
-        )
-
-        def sum_variances(piece: Piece, y: Array, places: Sequence[int] = places) -> list[Variance]:
-            return [Variance.of(piece, k, y) for k in places]
-
+) -> tuple[Remainder, dict[str, Test]]:
+    """The same with ``given`` candidate columns, and the tests of ``random`` effects, of which it has the places of their columns."""
+    searches, sums = [], []
+    for flight in range(len(f.prepared)):
+        lean, projector, places = project_out(f, flight, given, [*random.values()])
         scores = Scores(lean, projector, only)
-        counted += scores.collect(sum_variances)
+        sums += scores.collect(lambda piece, y, own=places: [sum_variances(piece, k, y) for k in own])  # type: ignore[misc]
         searches.append(choose(scores))
-    variances = {e: pool_variances([own[n] for own in counted]) for n, e in enumerate(random)}
-    return Remainder(tuple(searches)), variances
+    tests = {e: test_variance(np.sum([own[n] for own in sums], axis=0)) for n, e in enumerate(random)}
+    return Remainder(tuple(searches)), tests
+
+
+def project_out(
+    f: Fitted, flight: int, given: Sequence[int], further: Sequence[int] = ()
+) -> tuple[PreparedFlight, Projector, list[int]]:
+    """A flight of a fit, what projects base and ``given`` candidate columns out of it, and where it has ``further`` columns."""
+    projector = whitening.make_projector(f.r_factors[flight], f.n_base, given, f.to_nominal)
+    return projector.lean(f.prepared[flight], further)
 
 
 def search_residuals(f: Fitted) -> list[Remainder]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -55,32 +55,16 @@ class ParameterValue:
         return own | ({"weights": list(self.weights)} if self.weights else {})
 
 
-def weigh_accelerometers(model: Model, p: Array, name: str) -> Array:
-    """(n,) weight of each accelerometer in G_out, k_VI K1 (Eq. 1), for a parameter of this name, over their mean; ``p`` is the
-    model's parameter vector.
-    """
-    values = name_values(model.chain, p)
-    g = values["k_VI"] if name == "K1" else values["k_VI"] * values["K1"]
-    return np.asarray(g / np.mean(g))
-
-
 def list_parameter_values(
     columns: Sequence[Column], values: Array, covariance: Array
 ) -> list[ParameterValue]:
     """Fitted parameters (in scales) in their display units."""
     found = []
-    for k, c in enumerate(columns):
+    for c, value, variance in zip(columns, values, np.diag(covariance), strict=True):
         factor = c.scale / c.unit_factor
-        found.append(
-            ParameterValue(
-                name=own_name(c),
-                accelerometer=c.accelerometer,
-                value=float(values[k]) * factor,
-                std=float(np.sqrt(covariance[k, k])) * factor,
-                unit=c.unit,
-                accelerometer_name=c.accelerometer_name,
-            )
-        )
+        std = float(np.sqrt(variance)) * factor
+        own = own_name(c), c.accelerometer, float(value) * factor, std, c.unit
+        found.append(ParameterValue(*own, accelerometer_name=c.accelerometer_name))
     return found
 
 
@@ -89,35 +73,24 @@ def own_name(c: Column) -> str:
     return c.name.split(".", 1)[1] if c.effect else c.name
 
 
-def list_patterns(columns: Sequence[Column], weight: Array, layout: Layout) -> Iterator[tuple[str, Array]]:
-    """Name and (n,) weights of the combinations of a parameter's n columns, in its display unit; ``weight``: its :func:`gains`.
+def list_patterns(layout: Layout) -> list[tuple[str, Array]]:
+    """Name and (n,) weights of the combinations of n accelerometers' values that an output depends on.
 
     Of another layout than the paper's: signs times cos and sin of n times the angle on the disc, named by their harmonic.
     """
-    for pattern, signs in PATTERNS if layout.like_paper else _harmonics(layout):
-        yield f"{pattern} {own_name(columns[0])}", np.array(signs) * weight
-
-
-def _harmonics(layout: Layout) -> Iterator[tuple[str, tuple[float, ...]]]:
+    if layout.like_paper:
+        return [(name, np.array(signs)) for name, signs in PATTERNS]
+    found = []
     for o in layout.outputs:
         for harmonic, weights in o.patterns:
             w = np.zeros(layout.size)
             w[list(o.members)] = weights
-            yield f"{o.name} {harmonic}", tuple(float(x) for x in w)
+            found.append((f"{o.name} {harmonic}", w))
+    return found
 
 
-@dataclass(frozen=True)
-class Combination:
-    """A parameter, or a combination of accelerometers', that a record sees.
-
-    ``weights`` (n,), in ``unit``, are those of the fitted columns in scales; ``shares`` those of the accelerometers' values
-    in ``unit``, empty of a parameter alone.
-    """
-
-    name: str
-    weights: Array
-    unit: str
-    shares: tuple[float, ...] = ()
+Combination = tuple[str, str, Array, tuple[float, ...]]
+"""A name, a unit, the weights (n,), in that unit, of fitted columns in scales, and those of the accelerometers' values in it."""
 
 
 def find_combinations(
@@ -128,7 +101,7 @@ def find_combinations(
     ``std`` is that of weights (n,) of values in scales; ``p`` the model's parameter vector.
     """
     found = []
-    alone = np.array([std(x) for x in np.eye(len(columns))])
+    alone, slopes = np.array([std(x) for x in np.eye(len(columns))]), name_values(model.chain, p)
     for name in dict.fromkeys(c.name for c in columns if c.accelerometer is not None):
         at = [k for k, c in enumerate(columns) if c.name == name]
         if len(at) != model.layout.size:
@@ -136,12 +109,14 @@ def find_combinations(
         each = [columns[k] for k in at]
         known = alone[at] if np.all(alone[at] < SEEN) else np.ones(len(at))
         factor = np.array([c.scale / c.unit_factor for c in each])
-        for label, shares in list_patterns(each, weigh_accelerometers(model, p, name), model.layout):
-            w = np.zeros(len(columns))
+        # by the weight of each accelerometer in G_out, k_VI K1 (Eq. 1), over their mean
+        gain = slopes["k_VI"] if name == "K1" else slopes["k_VI"] * slopes["K1"]
+        for pattern, signs in list_patterns(model.layout):
+            shares, w = signs * gain / np.mean(gain), np.zeros(len(columns))
             w[at] = shares * factor
             if std(w) < SEEN * float(np.linalg.norm(w[at] * known)):
-                values = tuple(float(x) for x in shares)
-                found.append(Combination(name=label, weights=w, unit=each[0].unit, shares=values))
+                label = f"{pattern} {own_name(each[0])}"
+                found.append((label, each[0].unit, w, tuple(float(x) for x in shares)))
     return found
 
 
@@ -181,16 +156,10 @@ class Estimates:
         def std(w: Array) -> float:
             return float(np.sqrt(max(0.0, float(w @ self.covariance @ w))))
 
+        found = find_combinations(self.model, self.p, self.columns, std)
         return tuple(
-            ParameterValue(
-                name=q.name,
-                accelerometer=None,
-                value=float(q.weights @ self.values),
-                std=std(q.weights),
-                unit=q.unit,
-                weights=q.shares,
-            )
-            for q in find_combinations(self.model, self.p, self.columns, std)
+            ParameterValue(name, None, float(w @ self.values), std(w), unit, shares)
+            for name, unit, w, shares in found
         )
 
 

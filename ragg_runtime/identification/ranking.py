@@ -1,22 +1,25 @@
-"""The effects in order of their evidence, and those on which the record is silent."""
+"""The effects in order of their evidence, how probable each is, and those on which the record is silent."""
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations, compress
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.scores import Error, finite
-from ragg_runtime.identification import likelihood_ratio, probability, selection
-from ragg_runtime.identification.likelihood_ratio import Test
+from ragg_runtime.identification import likelihood_ratio
+from ragg_runtime.identification.likelihood_ratio import Test, list_ways, log_bayes
 from ragg_runtime.identification.parameters import Estimates, ParameterValue
-from ragg_runtime.identification.probability import Probabilities
 from ragg_runtime.identification.selection import ProjectedProblem
 from ragg_runtime.identification.strong import AddedEffect, Stage
 from ragg_runtime.model.model import DerivedEffect
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -100,10 +103,10 @@ def rank_effects(stage: Stage, only: Container[str] | None = None) -> list[Ranke
     vectors = [f.vector(c, extras[e]) for e, (c, _) in fits.items()]
     vectors += [f.fit_held_out(extra) for extra in extras.values()]
     scored = f.score(vectors) if vectors else []
-    alternatives = selection.find_alternatives(problem, stage.chosen)
     ranked = []
     for n, (e, (c, covariance)) in enumerate(fits.items()):
-        alike = [alternatives.get(e, ()), *((main, *x) for main, x in alternatives.items() if e in x)]
+        others = stage.alternatives
+        alike = [others.get(e, ()), *((main, *x) for main, x in others.items() if e in x)]
         row = Ranked(
             effect=e,
             test=problem.tests()[e],
@@ -213,12 +216,122 @@ def list_detectable(f: Fitted, problem: ProjectedProblem) -> list[Detectable]:
     return rows
 
 
+# --- how probable each effect is: all sets of up to three effects, weighed by their evidence. With Zellner's prior
+# b ~ N(0, g (X'X)^-1) the evidence of a set S against the empty one is exact (A. Zellner 1986; F. Liang et al., J. Am. Stat. Assoc. 103,
+# 2008), log B_S(g) = chi2_S / 2 * g / (1 + g) - k_S / 2 * log(1 + g), with chi2_S what its k_S coefficients explain. g is averaged over
+# eight decades; each of E effects is present with probability 1/E (J. Scott and J. Berger, Ann. Stat. 38, 2010).
+
+LARGEST = 3
+"""Most effects of a set."""
+
+HELD = 0.95
+"""Probability that the credible set holds together."""
+
+RIDGE = 1e-9
+"""Added to the inner products of orthonormal blocks: effects that coincide count once."""
+
+
+@dataclass(frozen=True)
+class Probabilities:
+    """Posterior over sets of effects: probability ``of`` each effect, and the ``credible`` sets, the smallest list, the most
+    probable first, that holds :data:`HELD`; the empty set is ``()``.
+    """
+
+    of: Mapping[str, float]
+    credible: tuple[tuple[str, ...], ...]
+
+    def within(self, share: float) -> Probabilities:
+        """The same where the catalogue has but a share of the probability; the rest, like what is not missing, is the empty set."""
+        others = tuple(s for s in self.credible if s)
+        credible = self.credible if share > HELD else ((), *others) if share > 1.0 - HELD else ((),)
+        return Probabilities({e: p * share for e, p in self.of.items()}, credible)
+
+
+@dataclass(frozen=True)
+class Sets:
+    """Sets of effects, each once: which of the sorted effects each ``holds`` (sets, effects), and the logarithm of its weight (sets,)."""
+
+    effects: tuple[str, ...]
+    holds: NDArray[np.bool_]
+    logs: Array
+
+    @staticmethod
+    def of(effects: Sequence[str], holds: NDArray[np.bool_], logs: Array) -> Sets:
+        """Of sets that may be there several times: their weights add up."""
+        lacks, place = np.unique(~holds, axis=0, return_inverse=True)
+        total = np.full(len(lacks), -np.inf)
+        np.logaddexp.at(total, place.ravel(), logs)
+        return Sets(tuple(effects), ~lacks, total)
+
+    def with_one_of(self, options: Sequence[str]) -> Sets:
+        """The sets where one of ``options`` is sure to be present, each as probable as the others beforehand."""
+        effects = sorted({*self.effects, *options})
+        holds = np.zeros((len(options), len(self.logs), len(effects)), dtype=bool)
+        holds[:, :, [effects.index(e) for e in self.effects]] = self.holds
+        for way, option in zip(holds, options, strict=True):
+            way[:, effects.index(option)] = True
+        logs = np.tile(self.logs - np.log(len(options)), len(options))
+        return Sets.of(effects, holds.reshape(-1, len(effects)), logs)
+
+    def probabilities(self) -> Probabilities:
+        """The probability of each effect."""
+        share = np.exp(self.logs - self.logs.max())
+        share /= share.sum()
+        order = np.argsort(-share, kind="stable")
+        enough = int(np.searchsorted(np.cumsum(share[order]), HELD)) + 1
+        credible = tuple(tuple(compress(self.effects, self.holds[s])) for s in order[:enough])
+        of = np.minimum(share @ self.holds, 1.0).tolist()
+        return Probabilities(dict(zip(self.effects, of, strict=True)), credible)
+
+
 def weigh_effects(problem: ProjectedProblem, steps: Sequence[AddedEffect]) -> Probabilities:
     """The probabilities of the remaining effects, and of those in the model: equivalent alternatives share there."""
-    sets = probability.weigh_sets(problem)
+    sets = weigh_sets(problem)
     for t in steps:
         sets = sets.with_one_of((t.effect, *t.alternatives))
     return sets.probabilities()
+
+
+def weigh_sets(f: ProjectedProblem) -> Sets:
+    """All sets of up to :data:`LARGEST` of the problem's effects, weighed; in sets of several each is in its most probable way."""
+    ways = [
+        (e, w) for e in sorted(f.candidates) for w in list_ways(f.P, f.candidates[e], f.floor, weakest=0.0)
+    ]
+    effects = [*dict.fromkeys(e for e, _ in ways)]
+    place = np.array([effects.index(e) for e, _ in ways], dtype=np.intp)
+    odds = -float(np.log(max(1, len(effects) - 1)))  # of presence, with probability 1/E
+    weights = np.array([odds - np.log(w.count) - f.penalty.get(e, 0.0) for e, w in ways])
+    length = np.array([w.Q.shape[1] for _, w in ways], dtype=np.intp)
+    Q = np.concatenate([np.zeros((len(f.P), 0)), *(w.Q for _, w in ways)], axis=1)
+    sets = [np.zeros((1, 0), dtype=np.intp), np.arange(len(ways), dtype=np.intp)[:, None]]
+
+    def weigh_each(some: NDArray[np.intp]) -> Array:
+        chi2 = _measure_jointly(Q, f.P[:, -1], length, some)
+        return np.asarray(log_bayes(chi2, np.sum(length[some], axis=1)) + np.sum(weights[some], axis=1))
+
+    alone = weigh_each(sets[1])
+    best = [max(np.flatnonzero(place == k), key=lambda n: alone[n]) for k in range(len(effects))]
+    best = sorted(best, key=lambda n: -length[n])  # sets of one shape are worked on at once
+    for size in range(2, LARGEST + 1):
+        sets.append(np.array([*combinations(best, size)], dtype=np.intp).reshape(-1, size))
+    logs = [np.zeros(1), alone, *(weigh_each(some) for some in sets[2:])]
+    holds = np.zeros((sum(map(len, sets)), len(effects)), dtype=bool)
+    for part, some in zip(np.split(holds, np.cumsum([len(x) for x in sets])), sets, strict=False):
+        part[np.arange(len(some))[:, None], place[some]] = True
+    return Sets.of(effects, holds, np.concatenate(logs))
+
+
+def _measure_jointly(Q: Array, y: Array, length: NDArray[np.intp], sets: NDArray[np.intp]) -> Array:
+    """Chi-square (n,) of data y that sets (n, size) of blocks of columns of Q, each so long, explain together."""
+    start, G, d = np.cumsum(length) - length, Q.T @ Q, Q.T @ y
+    found, lengths = np.zeros(len(sets)), length[sets]
+    for shape in np.unique(lengths, axis=0):
+        members = np.flatnonzero((lengths == shape).all(axis=1))
+        begins = start[sets[members]].T[:, :, None]
+        at = np.concatenate([b + np.arange(k) for b, k in zip(begins, shape, strict=True)], axis=1)
+        inner = G[at[:, :, None], at[:, None]] + RIDGE * np.eye(at.shape[1])
+        found[members] = np.sum(d[at] * np.linalg.solve(inner, d[at][..., None])[..., 0], axis=1)
+    return found
 
 
 def add_probability(r: Ranked, found: Probabilities, columns: Container[str]) -> Ranked:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
@@ -11,17 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.calibration import list_off_sheet
-from ragg_runtime.estimation.fitted import Fitted, measure_noise_floor
+from ragg_runtime.estimation.fitted import Fitted, list_noise_floor, measure_noise_floor
 from ragg_runtime.estimation.scores import Error
-from ragg_runtime.identification import dictionary, series
-from ragg_runtime.identification.dictionary import Term
-from ragg_runtime.identification.features import find_channel_unit
+from ragg_runtime.identification import formula
+from ragg_runtime.identification.dictionary import Term, find_channel_unit
 from ragg_runtime.identification.line_rival import Steady
 from ragg_runtime.identification.next_motion import Proposal
 from ragg_runtime.identification.omnibus import Remainder, ResidualTerm, list_terms
 from ragg_runtime.identification.ranking import Detectable, NotTestable, Ranked
 from ragg_runtime.identification.search import Outcome
-from ragg_runtime.identification.sequential import ChangePoint
+from ragg_runtime.io import Flight
 from ragg_runtime.wording import describe
 from ragg_runtime.wording.sections import render_notebook
 
@@ -124,7 +123,7 @@ class Diagnosis:
     def needs(self) -> list[str]:
         """Columns, in words, that a flight must have for :meth:`expression`."""
         found = self._suggested
-        return [] if found is None else dictionary.list_effect_columns(found[0])
+        return [] if found is None else formula.list_effect_columns(found[0])
 
     @cached_property
     def _suggested(self) -> tuple[Term, str] | None:
@@ -132,7 +131,7 @@ class Diagnosis:
         for t in sorted(steady, key=lambda t: -abs(t.z)):
             term = t.term.felt
             units = [u for c in term.channels if (u := find_channel_unit(c)) != "1"]
-            line = dictionary.write_effect(term, t.centre, "/".join(("m/s^2", *(f"({u})" for u in units))))
+            line = formula.write_effect(term, t.centre, "/".join(("m/s^2", *(f"({u})" for u in units))))
             if line is not None:
                 return term, line
         return None
@@ -172,7 +171,7 @@ class Diagnosis:
                 "needs": self.needs(),
             },
             "error": {"before": self.before.as_json(), "after": self.after.as_json()},
-            "noise_floor": series.list_noise_floor(self.noise, self.noise_floor),
+            "noise_floor": list_noise_floor(self.noise, self.noise_floor),
             "explained": {"share": self.outcome.explained.share},
             "credible_set": [list(s) for s in self.credible_set],
             "holds_until_s": None if self.change is None else self.change.until,
@@ -180,6 +179,14 @@ class Diagnosis:
             "next_motion": [p.as_json() for p in self.next_motion],
             "detectable": [{"effect": s.effect, "three_sigma": str(s)} for s in self.sizes],
         }
+
+
+@dataclass(frozen=True)
+class ChangePoint:
+    """Where the model ceased to hold: ``until`` the end of the last block of time in which it held, s of the flight's ``time``."""
+
+    flight: str
+    until: float
 
 
 @dataclass(frozen=True)
@@ -246,3 +253,45 @@ def group_findings(
     names = {e: shared.term.words for e in found if shared and others.get(e)}
     names |= {s.effect: s.name for s in steady}
     return tuple(Group(effects=(e, *others.get(e, ())), name=names.get(e)) for e in found)
+
+
+def heed_flags(d: Diagnosis, flights: Sequence[Flight]) -> Diagnosis:
+    """The diagnosis of flights with what is wrong with them, their flags, as its reason.
+
+    Nothing is claimed of a record that holds something odd, but effects that describe just that; of one with noisy motion no noise that
+    follows the motion, as what smoothing leaves of the sensors' noise does so, too. Of one at rest, which the model explains, the
+    reason says how little that means.
+    """
+    flags = [(x, f) for x in flights for f in x.flags if f.open or f.kind]
+    # an output that exceeds stationary noise, where motion was not recorded, is not explained
+    unknown = bool(d.reasons) and any(f.kind == "still" for _, f in flags)
+    several = len(flights) > 1
+    noted = tuple(Reason(f"{x.name}: {f.reason}" if several else f.reason) for x, f in flags)
+    if not flags or (d.verdict == "adequate" and not unknown):
+        little = [r for r, (_, f) in zip(noted, flags, strict=True) if f.kind == "still"]
+        return replace(d, reasons=(*little, *d.reasons)) if little else d
+    if any(f.kind == "motion-noise" for _, f in flags):
+        kinds = {e.id: e.kind for e in d.fitted.model.candidates}
+        d = _claim_only(d, [e for e in d.found if kinds.get(e) != "random"])
+    odd = [f for _, f in flags if f.open]
+    described = [e for e in d.found if all(e in f.effects for f in odd)]
+    if not odd or (described and len(described) == len(d.found)):
+        return replace(d, reasons=(*noted, *d.reasons))
+    others = [e for e in d.found if e not in described]
+    would = (
+        (Reason(f"{', '.join(others)} would explain it, but such a record cannot confirm it"),)
+        if others
+        else ()
+    )
+    reasons = (*noted, *would, *(r for r in d.reasons if r.kind != "verdict"))
+    verdict = name_verdict(claimed=bool(described), remains=True)
+    return replace(_claim_only(d, described), verdict=verdict, reasons=reasons)
+
+
+def _claim_only(d: Diagnosis, kept: Sequence[str]) -> Diagnosis:
+    """The diagnosis without the other effects."""
+    if list(d.found) == list(kept):
+        return d
+    groups = tuple(g for g in d.groups if g.effects[0] in kept)
+    verdict = name_verdict(claimed=bool(kept), remains=d.remains)
+    return replace(d, verdict=verdict, found=tuple(kept), groups=groups)

@@ -14,9 +14,9 @@ from ragg_runtime.estimation import fitted as fitted_
 from ragg_runtime.estimation.fitted import Fitted, Scored, calibrate, fit
 from ragg_runtime.estimation.regressors import group_by_effect
 from ragg_runtime.identification import comparison, omnibus, selection, strong
-from ragg_runtime.identification.claims import SECOND_ORDER, Regression, Robust
+from ragg_runtime.identification.claims import SECOND_ORDER, Regression
 from ragg_runtime.identification.comparison import Explained, measure_explained
-from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
+from ragg_runtime.identification.likelihood_ratio import Test, weigh
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.strong import AddedEffect, Extend, Stage
 from ragg_runtime.instrument.instrument import Instrument
@@ -52,12 +52,12 @@ class Outcome:
             coefficients=v,
             scored=scored,
             remainder=rem,
-            random={e: x.test() for e, x in random.items()},
+            random=random,
         )
 
     @cached_property
-    def robust(self) -> Robust:
-        return Robust.of(Regression.of(self.target, self.given))
+    def regression(self) -> Regression:
+        return Regression.of(self.target, self.given)
 
     @cached_property
     def noise_floor(self) -> float:
@@ -115,11 +115,6 @@ class Evidence:
             return strong_ones[effect]
         return self.last.problem.tests([e for e in self.last.chosen if e != effect])[effect]
 
-    @property
-    def log_p(self) -> dict[str, float]:
-        """Of what the last stage has chosen, each beside the others: logarithms of p-values."""
-        return {e: self.test(e).log_p for e in self.last.chosen}
-
     def explained(self, o: Outcome) -> tuple[float, int]:
         """Chi-square that an outcome's effects explain of what the model leaves without them, and with how many coefficients."""
         first = self.first
@@ -154,7 +149,7 @@ class Evidence:
         """For every chosen effect those that would explain as much in its place."""
         if self.steps:
             return {t.effect: t.alternatives for t in self.steps}
-        return selection.find_alternatives(self.first.problem, self.first.chosen)
+        return self.first.alternatives
 
     def without(self, o: Outcome, effect: str) -> Outcome:
         """An outcome without one of its effects, fitted again."""
@@ -198,9 +193,8 @@ class Evidence:
             max(0.0, without - c.chi2 - calibration.charge_wider_priors(s, c))
             for s, c in ((sheet, instead), (chosen_sheet, chosen))
         ]
-        evidence = log_bayes(np.array(explained), np.array([known, self._count_coefficients(o)]))
         charge = self.charge(o) + (len(o.effects) - 1) * float(np.log(self.first.problem.count))
-        return float(evidence[0] - evidence[1]) + charge
+        return weigh(explained[0], known) - weigh(explained[1], self._count_coefficients(o), charge)
 
     def _is_derived(self, o: Outcome) -> bool:
         return self.extend is not None and bool(self.steps or o.target is not self.last.fitted)
@@ -226,11 +220,10 @@ def _list_given(last: Stage, chosen: Iterable[str]) -> list[int]:
 
 def search(first: Stage, extend: Extend | None, *, apart: bool) -> Evidence:
     """Search forward; nothing is searched in flights that are kept ``apart``, nor in an output of which the model explains nothing."""
-    budget = strong.Budget()
     idle = apart or measure_explained(first.fitted, first.scored).complaint is not None
-    steps, last = ([], first.without_choice()) if idle else strong.select_strong(first, extend, budget)
+    steps, last, spent = ([], first.without_choice(), False) if idle else strong.select_strong(first, extend)
     last, outcome = confirm_choice(steps, last, extend)
-    return Evidence(first, steps, last, outcome, extend, budget.spent)
+    return Evidence(first, steps, last, outcome, extend, spent)
 
 
 def confirm_choice(steps: Sequence[AddedEffect], last: Stage, extend: Extend | None) -> tuple[Stage, Outcome]:

@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.observation import BLOCKS
 from ragg_runtime.estimation.regressors import Column, group_by_effect
 from ragg_runtime.estimation.scores import DISTINGUISHABLE, INDISTINGUISHABLE
 from ragg_runtime.estimation.whitening import PreparedFlight
-from ragg_runtime.identification import likelihood_ratio, uneven
-from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
+from ragg_runtime.identification import likelihood_ratio
+from ragg_runtime.identification.likelihood_ratio import Test, weigh
 
 Array = NDArray[np.float64]
 
@@ -47,7 +48,7 @@ class ProjectedProblem:
 
     ``candidates`` are columns after the base, by effect; ``penalty`` the logarithm of the number of variants an effect was chosen
     from; ``norms`` the candidates' whitened norms before projection; ``freedom`` that of the noise. ``flights``: those whose
-    samples temper the tests, where the noise is uneven (``uneven``).
+    samples temper the tests, where the noise is uneven.
     ``contains``: the special cases of effects, which are no alternatives to them.
     """
 
@@ -113,9 +114,9 @@ class ProjectedProblem:
             known = [*range(self.n_base), *(self.n_base + n for e in given for n, _ in self.candidates[e])]
             norms = np.linalg.norm(P, axis=0)
             tested = [[self.n_base + n for n in found[e].which if norms[n] > floor[n]] for e in raised]
-            scatter = uneven.measure_scatter(self.T, self.flights, known, tested)
+            scatter = likelihood_ratio.measure_scatter(self.T, self.flights, known, tested)
             for e, by, known in zip(raised, scatter.inflation, scatter.freedom, strict=True):
-                found[e] = uneven.temper_test(found[e], float(by), float(known), self.freedom)
+                found[e] = likelihood_ratio.temper_test(found[e], float(by), float(known), self.freedom)
         return found
 
     @cached_property
@@ -203,7 +204,7 @@ def weigh_choice(f: ProjectedProblem, chosen: Blocks) -> float:
 def _weigh_blocks(f: ProjectedProblem, blocks: Blocks) -> float:
     """Log evidence of effects together, each with these columns, charged for their choice."""
     chi2, rank = f.joint([*blocks.values()])
-    return float(log_bayes(chi2, rank)) - len(blocks) * float(np.log(max(f.count, 1)))
+    return weigh(chi2, rank, charge=len(blocks) * float(np.log(max(f.count, 1))))
 
 
 def are_alike(a: Test, b: Test) -> bool:
@@ -226,7 +227,9 @@ def find_alternatives(f: ProjectedProblem, chosen: Blocks) -> dict[str, tuple[st
 
 
 def make_problem(f: Fitted, effects: Sequence[str] | None = None) -> ProjectedProblem:
-    """The candidates of some effects, or of all that are deterministic and testable, on the R factor of everything."""
+    """The candidates of some effects, or of all that are deterministic and testable, on the R factor of everything; steps among them
+    charged for the choice of their instant.
+    """
     available = list_testable(f) if effects is None else effects
     kept = {e: tuple(c) for e, c in group_by_effect(f.candidates).items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
@@ -234,6 +237,7 @@ def make_problem(f: Fitted, effects: Sequence[str] | None = None) -> ProjectedPr
         T=f.whole,
         n_base=f.n_base,
         candidates=kept,
+        penalty={e.id: float(np.log(2 * BLOCKS)) for e in f.model.candidates if e.kind == "step"},
         freedom=freedom,
         flights=f.prepared if any(n.uneven for n in f.calibration.noise) else (),
         contains={e.id: e.contains for e in f.model.candidates},

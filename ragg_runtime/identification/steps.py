@@ -54,11 +54,11 @@ def add_steps(
         return make_problem(f), f, {}
     known = {e: _sharpen(f, step, columns[e]) for e, step in known.items()}
     f = _begin_at(f, known) if known else f
-    chosen = selection.choose(_make_problem(f, [*available, *known]))
+    chosen = selection.choose(make_problem(f, [*available, *known]))
     beside = [n for n, c in enumerate(f.candidates) if c.effect in chosen]
     likeliest = _scan(f, {e: own for e, own in columns.items() if e not in known}, beside)
     begun = _zero_before(f, likeliest, columns)
-    problem = _make_problem(begun, [*available, *columns])
+    problem = make_problem(begun, [*available, *columns])
     # samples do not judge a step yet: one that is in the noise makes it uneven
     found = [e for e in selection.choose(replace(problem, flights=())) if e in likeliest]
     if found:
@@ -69,12 +69,6 @@ def add_steps(
     prepared = tuple(x.with_steps(instants) for x in f.prepared)
     tests = replace(problem, flights=prepared if problem.flights else ())
     return tests, replace(begun, prepared=prepared), instants
-
-
-def _make_problem(f: Fitted, effects: Sequence[str]) -> ProjectedProblem:
-    """The problem of effects, steps among them charged for the choice of their instant."""
-    steps = [e.id for e in f.model.candidates if e.kind == "step"]
-    return replace(make_problem(f, effects), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))
 
 
 def _list_instants(f: Fitted, steps: Mapping[str, Step]) -> dict[str, float]:

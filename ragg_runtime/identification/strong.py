@@ -11,7 +11,6 @@ from functools import cached_property
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import comb
 
 from ragg_runtime.estimation import calibration
@@ -32,15 +31,13 @@ from ragg_runtime.estimation.fitted import (
 from ragg_runtime.estimation.least_squares import compute_r_factor
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
 from ragg_runtime.identification import likelihood_ratio, selection
-from ragg_runtime.identification.likelihood_ratio import Test, log_bayes
+from ragg_runtime.identification.likelihood_ratio import Test, weigh
 from ragg_runtime.identification.parameters import list_bounded_columns
 from ragg_runtime.identification.selection import Blocks, ProjectedProblem
 from ragg_runtime.identification.steps import add_steps
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model.model import Model
-
-Array = NDArray[np.float64]
 
 STRONG = 2500.0
 """Chi-square of an effect from which it counts as strong (50 sigma): a linearisation that is right to 2 % then misses
@@ -97,6 +94,11 @@ class Stage:
     def scored(self) -> Scored:
         """How large the residual is."""
         return self.fitted.score([np.zeros(self.fitted.size)])[0]
+
+    @cached_property
+    def alternatives(self) -> Mapping[str, tuple[str, ...]]:
+        """For every chosen effect those that would explain as much in its place."""
+        return selection.find_alternatives(self.problem, self.chosen)
 
     @staticmethod
     def of(f: Fitted, *, beside: bool = False) -> Stage:
@@ -156,17 +158,6 @@ FITS = 16
 """Nonlinear fits that a search may make: a flight with strong effects of the catalogue takes two to eight."""
 
 
-@dataclass
-class Budget:
-    """How many fits a search may still make."""
-
-    left: int = FITS
-
-    @property
-    def spent(self) -> bool:
-        return self.left <= 0
-
-
 def _with_priors_of_sheet(f: Fitted) -> Fitted | None:
     """The fit with the same noise and the priors of the sheet; ``None`` if none of them was widened."""
     effects = [c.name for c in f.calibration.columns if c.effect is not None]
@@ -177,44 +168,25 @@ def _with_priors_of_sheet(f: Fitted) -> Fitted | None:
     return prepare_evidence(f.model, sheet, f.observations, c)
 
 
-def select_strong(first: Stage, extend: Extend | None, budget: Budget) -> tuple[list[AddedEffect], Stage]:
-    """The strong effects, the strongest first, and the stage at which none is left, or what is missing is not in the catalogue, or
-    the budget is spent.
+def select_strong(first: Stage, extend: Extend | None) -> tuple[list[AddedEffect], Stage, bool]:
+    """The strong effects, the strongest first; the stage at which none is left, or what is missing is not in the catalogue, or
+    all fits are made; and whether they are.
     """
     found: list[AddedEffect] = []
-    stage = first
-    while extend is not None and stage.strong and len(found) < selection.MOST and not budget.spent:
-        one = _add_strongest(stage, extend, budget)
+    stage, fits = first, FITS
+    while extend is not None and stage.strong and len(found) < selection.MOST and fits > 0:
+        contest = Contest(stage, extend, fits)
+        one = contest.add_strongest()
         if one is None:
-            return found, stage.without_choice()
+            return found, stage.without_choice(), contest.fits <= 0
         found.append(one)
-        stage = Stage.of(one.after, beside=True)
-    return found, stage
+        stage, fits = Stage.of(one.after, beside=True), contest.fits
+    return found, stage, fits <= 0
 
 
 def list_unneeded(problem: ProjectedProblem, effect: str, which: Sequence[int]) -> frozenset[str]:
     """Labels of an effect's columns that its test does not need."""
     return frozenset(c.label for n, c in problem.candidates[effect] if n not in which)
-
-
-@dataclass
-class Contest:
-    """Effects of a stage, each tried in the model by itself: what it leaves (:func:`score_fit`), and whether any fit came to an optimum."""
-
-    stage: Stage
-    extend: Extend
-    budget: Budget
-    left: dict[str, float] = field(default_factory=dict)
-    arrived: bool = False
-
-    def try_effects(self, ids: Sequence[str]) -> dict[str, float]:
-        """What these leave."""
-        self.budget.left -= len(ids)
-        for e in ids:
-            if e not in self.left:
-                self.left[e], converged = score_fit(self.stage.fitted, *self.stage.derive(e, self.extend))
-                self.arrived |= converged
-        return {e: self.left[e] for e in ids}
 
 
 def score_fit(f: Fitted, model: Model, sheet: Instrument) -> tuple[float, bool]:
@@ -257,26 +229,6 @@ def choose_start(f: Fitted, model: Model, sheet: Instrument, effect: str) -> Ins
     return found[int(np.argmin(left))]
 
 
-def _add_strongest(stage: Stage, extend: Extend, budget: Budget) -> AddedEffect | None:
-    """The effect that explains most once it is in the model, of those that are possible at the size that they then have.
-
-    ``None`` where only an impossible one leaves but noise, or none of several comes to an optimum.
-    """
-    tests = {e: t for e, t in stage.problem.tests().items() if t.rank}
-    contest = Contest(stage, extend, budget)
-    while True:
-        effect, alternatives = _choose_best(stage.problem, tests, contest)
-        if contest.left and not contest.arrived:
-            return None
-        found = _add_to_model(stage, effect, alternatives, extend)
-        budget.left -= 1
-        if len(tests) == 1 or budget.spent or not find_impossible(found.after, (effect,)):
-            return found
-        if found.after.calibration.excess <= QUIET and not alternatives:
-            return None
-        tests.pop(effect)
-
-
 CERTAIN = 5.0
 """Standard deviations from the values that are possible at which an estimate is impossible."""
 
@@ -303,26 +255,65 @@ def find_impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
     return tuple(e for e in dict.fromkeys(effects) if e in found)
 
 
-def _choose_best(
-    problem: ProjectedProblem, tests: Mapping[str, Test], contest: Contest
-) -> tuple[str, tuple[str, ...]]:
-    """The effect that leaves least in the model, that of the greatest linear evidence among equals, and those equals."""
-    total = problem.chi2
-    least = min(total - t.chi2 for t in tests.values())
-    near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
-    near = sorted(near, key=lambda e: (-_weigh_evidence(tests[e], len(problem.candidates[e])), e))
-    tried = near[:CONTENDERS]
-    left = contest.try_effects(tried) if len(tried) > 1 else dict.fromkeys(tried, 0.0)
-    best = min(tried, key=lambda e: (left[e], e))
-    # effects with the same signature are all of its group, however many they are
-    left |= contest.try_effects([e for e in near[CONTENDERS:] if _are_alike(tests[e], tests[best])])
-    equal = {e for e in left if left[e] < left[best] + INDISTINGUISHABLE}
-    effect = min((e for e in equal if equal.isdisjoint(problem.contains.get(e, ()))), key=near.index)
-    as_near = {e for e in left if left[e] < left[effect] + INDISTINGUISHABLE}
-    others = equal | {e for e in as_near if _as_sure(tests[e], tests[effect])}
-    return effect, tuple(
-        e for e in sorted(others) if e != effect and effect not in problem.contains.get(e, ())
-    )
+@dataclass
+class Contest:
+    """Effects of a stage, each tried in the model by itself, with the ``fits`` that may still be made.
+
+    ``left``: what each leaves (:func:`score_fit`); ``arrived``: whether any fit came to an optimum.
+    """
+
+    stage: Stage
+    extend: Extend
+    fits: int
+    left: dict[str, float] = field(default_factory=dict)
+    arrived: bool = False
+
+    def add_strongest(self) -> AddedEffect | None:
+        """The effect that explains most once it is in the model, of those that are possible at the size that they then have.
+
+        ``None`` where only an impossible one leaves but noise, or none of several comes to an optimum.
+        """
+        tests = {e: t for e, t in self.stage.problem.tests().items() if t.rank}
+        while True:
+            effect, alternatives = self._choose_best(tests)
+            if self.left and not self.arrived:
+                return None
+            found = _add_to_model(self.stage, effect, alternatives, self.extend)
+            self.fits -= 1
+            if len(tests) == 1 or self.fits <= 0 or not find_impossible(found.after, (effect,)):
+                return found
+            if found.after.calibration.excess <= QUIET and not alternatives:
+                return None
+            tests.pop(effect)
+
+    def _choose_best(self, tests: Mapping[str, Test]) -> tuple[str, tuple[str, ...]]:
+        """The effect that leaves least in the model, that of the greatest linear evidence among equals, and those equals."""
+        problem = self.stage.problem
+        total = problem.chi2
+        least = min(total - t.chi2 for t in tests.values())
+        near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
+        near = sorted(near, key=lambda e: (-_weigh_evidence(tests[e], len(problem.candidates[e])), e))
+        tried = near[:CONTENDERS]
+        left = self._try_effects(tried) if len(tried) > 1 else dict.fromkeys(tried, 0.0)
+        best = min(tried, key=lambda e: (left[e], e))
+        # effects with the same signature are all of its group, however many they are
+        left |= self._try_effects([e for e in near[CONTENDERS:] if _are_alike(tests[e], tests[best])])
+        equal = {e for e in left if left[e] < left[best] + INDISTINGUISHABLE}
+        effect = min((e for e in equal if equal.isdisjoint(problem.contains.get(e, ()))), key=near.index)
+        as_near = {e for e in left if left[e] < left[effect] + INDISTINGUISHABLE}
+        others = equal | {e for e in as_near if _as_sure(tests[e], tests[effect])}
+        return effect, tuple(
+            e for e in sorted(others) if e != effect and effect not in problem.contains.get(e, ())
+        )
+
+    def _try_effects(self, ids: Sequence[str]) -> dict[str, float]:
+        """What these leave."""
+        self.fits -= len(ids)
+        for e in ids:
+            if e not in self.left:
+                self.left[e], converged = score_fit(self.stage.fitted, *self.stage.derive(e, self.extend))
+                self.arrived |= converged
+        return {e: self.left[e] for e in ids}
 
 
 def _weigh_evidence(t: Test, columns: int) -> float:
@@ -342,7 +333,7 @@ def _add_to_model(stage: Stage, effect: str, alternatives: tuple[str, ...], exte
     if effect in tests and tests[effect][1].rank:
         unneeded, about = tests[effect]
         charge = about.charge + problem.penalty.get(effect, 0.0)
-        log_b = float(log_bayes(test.chi2 / test.inflation, about.rank)) - charge
+        log_b = weigh(test.chi2, about.rank, charge, spread=test.inflation)
         which = tuple(n for n, c in problem.candidates[effect] if c.label not in unneeded)
         test = replace(test, rank=about.rank, log_b=log_b, which=which)
     return AddedEffect(effect, test, f, after, alternatives, stage.instants.get(effect))

@@ -1,9 +1,9 @@
-"""Terms that come and go: a coefficient that is not the same throughout a flight.
+"""What in a residual is no steady term: terms that come and go, and lines of its spectrum.
 
-Four questions are asked of every term, on its scores in short intervals of time: do the coefficients fitted in each
-block of time scatter; does it act in one window only; does it jump; does it swing with a period? All are asked of the
-whitened residual, with everything known projected out, against its own level nearby, so that noise that is not quite
-stationary or not quite white raises no alarm.
+The coefficient of a term may not be the same throughout a flight. Four questions are asked of every term, on its scores in short
+intervals of time: do the coefficients fitted in each block of time scatter; does it act in one window only; does it jump; does it swing
+with a period? All are asked of the whitened residual, with everything known projected out, against its own level nearby, so that noise
+that is not quite stationary or not quite white raises no alarm.
 """
 
 from __future__ import annotations
@@ -13,12 +13,11 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special
+from scipy import ndimage, special
 
 from ragg_runtime.estimation.observation import make_block_edges
-from ragg_runtime.estimation.scores import log_sf
+from ragg_runtime.estimation.scores import log_sf, log_sf_f
 from ragg_runtime.estimation.whitening import Piece
-from ragg_runtime.identification.dictionary import multiply, sum_squares
 
 Array = NDArray[np.float64]
 
@@ -58,7 +57,7 @@ class Varying:
 
 
 class BlockScores:
-    """Scores of some terms in every interval of time: sums over segments."""
+    """Scores of some terms in every interval of time: sums over segments, counted in one after the other."""
 
     def __init__(self, count: int, time: Array) -> None:
         self.count = count
@@ -70,11 +69,6 @@ class BlockScores:
         intervals = len(self.edges) - 1
         self.dot, self.norm2 = np.zeros((intervals, count)), np.zeros((intervals, count))
         self.square, self.rows = np.zeros(intervals), np.zeros(intervals)
-
-    def join(self, other: BlockScores) -> None:
-        """Count in the sums of further segments."""
-        for name in ("dot", "norm2", "square", "rows"):
-            getattr(self, name)[...] += getattr(other, name)
 
     def _runs(self, piece: Piece) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Where, among the whitened rows of a segment, runs within one interval begin; and their intervals."""
@@ -88,7 +82,7 @@ class BlockScores:
         np.add.at(self.square, intervals, np.add.reduceat(y**2, starts))
         np.add.at(self.rows, intervals, np.diff(starts, append=len(y)).astype(np.float64))
 
-    def add(self, piece: Piece, y: Array, at: slice, X: NDArray[np.float32]) -> None:
+    def add(self, piece: Piece, y: Array, at: slice, X: Array) -> None:
         """Count in the whitened series X (terms, rows) of the terms at places ``at``; others are left alone."""
         if at.start >= self.count:
             return
@@ -96,8 +90,8 @@ class BlockScores:
         X = X[: at.stop - at.start]
         starts, intervals = self._runs(piece)
         for a, b, interval in zip(starts, [*starts[1:], len(y)], intervals, strict=True):
-            self.dot[interval, at] += multiply(X[:, a:b], y[a:b, None])[:, 0]
-            self.norm2[interval, at] += sum_squares(X[:, a:b])
+            self.dot[interval, at] += X[:, a:b] @ y[a:b]
+            self.norm2[interval, at] += np.einsum("ij,ij->i", X[:, a:b], X[:, a:b])
 
     def best(self, good: NDArray[np.bool_]) -> Varying | None:
         """The most variable of the ``good`` terms."""
@@ -184,3 +178,51 @@ class BlockScores:
 def _divide(a: Array, b: Array) -> Array:
     """a / b, zero where b is not positive."""
     return np.asarray(np.where(b > 0.0, a / np.where(b > 0.0, b, 1.0), 0.0))
+
+
+# --- a line in the spectrum of the whitened residual, against its level nearby
+
+NEIGHBOURS = 200
+"""Bins of the spectrum that tell the level about one of them."""
+
+LOWEST_BIN = 4
+"""First bin that may be a line: those below are bent by what a fit takes out."""
+
+
+class Periodogram:
+    """Mean periodogram of the whitened residual over the segments of a flight, without the ``excluded`` frequencies, Hz."""
+
+    def __init__(self, length: int, rate: float, excluded: tuple[float, float] | None) -> None:
+        self.length, self.rate, self.excluded = length, rate, excluded
+        self.sum = np.zeros(length // 2 + 1)
+        self.count = 0
+
+    def add(self, piece: Piece, y: Array) -> None:
+        """Count in a segment; ``y`` (rows,) holds one output after the other."""
+        valid = piece.observation.record.valid
+        if np.sum(valid) < len(valid) / 2:
+            return
+        for part in np.split(y, len(piece.observation.series)):
+            grid = np.zeros(len(valid))
+            grid[valid] = part
+            self.sum += np.abs(np.fft.rfft(grid, self.length)) ** 2 / np.sum(valid)
+            self.count += 1
+
+    def best(self) -> tuple[float, float, float] | None:
+        """Of the strongest line the logarithm of its p-value, its frequency, Hz, and the share of the power that is in it."""
+        f = np.arange(len(self.sum)) * self.rate / self.length
+        free = (np.arange(len(f)) >= LOWEST_BIN) & (np.arange(len(f)) < len(f) - 1)
+        if self.excluded is not None:
+            free &= (f < self.excluded[0]) | (f > self.excluded[1])
+        if self.count == 0 or np.sum(free) <= 2 * NEIGHBOURS:
+            return None
+        P = np.where(free, self.sum / self.count, 0.0)
+        size = NEIGHBOURS + 1
+        weight = ndimage.uniform_filter1d(free.astype(np.float64), size, mode="constant") * size - free
+        level = (ndimage.uniform_filter1d(P, size, mode="constant") * size - P) / np.maximum(weight, 1.0)
+        ratio = np.where(free & (weight > NEIGHBOURS / 2), P / np.maximum(level, 1e-300), 0.0)
+        k = int(np.argmax(ratio))
+        freedom = 2 * self.count
+        log_p = log_sf_f(float(ratio[k]), freedom, freedom * float(weight[k])) + float(np.log(np.sum(free)))
+        share = 2.0 * (P[k] - level[k]) / float(self.length)
+        return min(0.0, log_p), float(f[k]), float(np.clip(share, 0.0, 1.0))

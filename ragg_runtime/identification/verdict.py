@@ -11,7 +11,7 @@ from scipy.special import expit
 from ragg_runtime.estimation.scores import DISTINGUISHABLE
 from ragg_runtime.identification import claims, comparison, omnibus, selection, strong
 from ragg_runtime.identification.claims import Significance
-from ragg_runtime.identification.likelihood_ratio import Test
+from ragg_runtime.identification.likelihood_ratio import Test, weigh
 from ragg_runtime.identification.line_rival import LineAlternative, Steady, find_line_rival
 from ragg_runtime.identification.omnibus import Remainder, ResidualTerm
 from ragg_runtime.identification.result import Reason, name_verdict
@@ -200,7 +200,8 @@ def _measure_log_p(found: Evidence, o: Outcome, effect: str) -> float:
     Far from there a linearisation may be wrong about what it explains. The effects of the last stage were tested beside the sheet as
     it was then: if that proves less sure, each competes with one still less sure.
     """
-    s, log_p = o.robust.significance(effect), found.log_p.get(effect)
+    s = o.regression.significance(effect)
+    log_p = found.test(effect).log_p if effect in found.last.chosen else None
     linear = 0.0
     if not (o.widened and log_p is not None):
         linear = _compare_with_strongest(o, s, s.log_p(log_p, doubted=o.remainder.significant))
@@ -224,7 +225,7 @@ def _is_significant(found: Evidence, o: Outcome, log_p: float) -> bool:
 def _find_contradicted(o: Outcome, first: Stage) -> str | None:
     """The effect that held-out blocks of time speak against most, if plainly; the instant of a step is from all of the record."""
     instants = {e.id for e in first.fitted.model.candidates if e.kind == "step"}
-    speaks = {e: claims.weigh_held_out(o.robust.regression, e) for e in o.effects if e not in instants}
+    speaks = {e: claims.weigh_held_out(o.regression, e) for e in o.effects if e not in instants}
     worst = min(speaks, key=lambda e: (speaks[e], e), default=None)
     return worst if worst is not None and speaks[worst] < -DISTINGUISHABLE else None
 
@@ -284,7 +285,7 @@ class GenericTerms:
         if not o.remains and len(o.effects) > 1:
             terms = max(terms, self._weigh_strong_term(chi2))
         charge = len(o.effects) * float(np.log(self.count)) + self.found.charge(o)
-        return claims.weigh_claims(chi2, rank, charge, spread) - terms
+        return weigh(chi2, rank, charge, spread) - terms
 
     def _weigh_strong_term(self, chi2: float) -> float:
         """Log evidence of the strongest term, if a linear fit is too rough for it, with the model fitted again beside it."""
@@ -294,7 +295,7 @@ class GenericTerms:
         left = claims.fit_beside(first.fitted, s.steady[0])
         if left is None:
             return -np.inf
-        return claims.weigh_claims(min(first.problem.chi2 - left, chi2 + 1.0), 1, float(np.log(s.tried)))
+        return weigh(min(first.problem.chi2 - left, chi2 + 1.0), 1, float(np.log(s.tried)))
 
 
 def _find_common_kind(found: Evidence, effects: Sequence[str]) -> str | None:

@@ -14,7 +14,6 @@ from ragg_runtime.base.errors import count, missing_package
 from ragg_runtime.base.files import MISSING, versions
 from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.estimation.fitted import Fitted
-from ragg_runtime.identification import series
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.parameters import Estimates
 from ragg_runtime.identification.result import Diagnosis
@@ -115,7 +114,7 @@ def write_comparison(c: Comparison, source: Source, frozen: Held | None = None) 
 
 def _ask_whiteness(f: Fitted, residual: Sequence[Array]) -> list[Section]:
     """Whether the residual of the worst flight is noise, folded; nothing where only the channels were recorded."""
-    (n,) = series.find_worst(f, residual, 1)
+    (n,) = panels.find_worst(f, residual, 1)
     if f.observations[n].recorded.demodulated:
         return []
     channel = panels.find_worst_channel(f, n, residual[n])

@@ -9,6 +9,7 @@ D^12, D^34, D^1234 (Eq. 18-19).
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,14 +18,23 @@ from scipy import signal
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.calibrate import LEARNED, count_directions, list_combinations, list_parameters
-from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.fitted import (
+    Fitted,
+    compute_noise_psd,
+    estimate_variance,
+    predict_demodulated_noise,
+    predict_harmonic_noise,
+)
+from ragg_runtime.estimation.observation import BLOCKS, combine_output
 from ragg_runtime.estimation.scores import demodulate_residual
 from ragg_runtime.estimation.unknown_gradient import is_unknown
 from ragg_runtime.estimation.whitening import PreparedFlight
-from ragg_runtime.identification import comparison, series
+from ragg_runtime.identification import comparison
 from ragg_runtime.identification import parameters as combinations
 from ragg_runtime.identification.parameters import UNSEEN
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
+from ragg_runtime.signals import derivative
+from ragg_runtime.signals.demodulators import CUTOFF, WIDTH
 from ragg_runtime.wording import describe, describe_other, numbers
 from ragg_runtime.wording.sections import Axes, Bar, Bars, Curve, Curves, Matrix, Section, Table
 
@@ -45,6 +55,123 @@ STEPS = 14
 SECONDS = "time since the first sample, s"
 
 
+POINTS = 600
+"""Columns of a drawn time series: about one for every second pixel of a laptop's screen."""
+
+LEAST = 8
+"""Samples of which an rms is drawn."""
+
+SEGMENT = 128.0
+"""Length of the segments of a drawn spectrum, s: a resolution of a fraction of the spin rate."""
+
+BAND = CUTOFF
+"""Hz up to which the demodulated channels hold the gradient."""
+
+DRAWN = CUTOFF + WIDTH / 2
+"""Hz up to which they are drawn: beyond it the low-pass leaves nothing."""
+
+
+@dataclass(frozen=True)
+class SeriesEnvelope:
+    """A series in ``POINTS`` segments: middle (s), minimum, maximum and rms of the valid samples (NaN: none)."""
+
+    time: Array
+    low: Array
+    high: Array
+    rms: Array
+
+
+def decimate(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POINTS) -> SeriesEnvelope:
+    """Decimate (N,) samples to at most ``points`` columns of ``LEAST`` samples or more, without losing an extreme."""
+    edges = np.unique(np.linspace(0, len(x), min(points, max(1, len(x) // LEAST)) + 1).astype(np.intp))
+    starts = edges[:-1]
+    count = np.add.reduceat(valid.astype(float), starts)
+    empty = count == 0.0
+    low = np.minimum.reduceat(np.where(valid, x, np.inf), starts)
+    high = np.maximum.reduceat(np.where(valid, x, -np.inf), starts)
+    rms = np.sqrt(np.add.reduceat(np.where(valid, x, 0.0) ** 2, starts) / np.maximum(count, 1.0))
+    middle = 0.5 * (time[starts] + time[edges[1:] - 1])
+    return SeriesEnvelope(middle, *(np.where(empty, np.nan, v) for v in (low, high, rms)))
+
+
+def compute_measured(w: PreparedFlight) -> Array:
+    """(N,) V: what was observed, as G_out; zero where a sample is not valid."""
+    return combine_output(w.observation, w.observation.data)
+
+
+@dataclass(frozen=True)
+class AmplitudeSpectrum:
+    """One-sided amplitude density over frequency, Hz and unit/sqrt(Hz)."""
+
+    frequency: Array
+    density: Array
+
+
+def estimate_spectrum(
+    x: Array, valid: NDArray[np.bool_], rate: float, points: int = 260
+) -> AmplitudeSpectrum | None:
+    """Welch spectrum over the valid segments of 32 samples and more, averaged to ``points`` steps of log frequency, or ``None``."""
+    parts = derivative.runs(valid, 32)
+    if not parts:
+        return None
+    longest = max(r.stop - r.start for r in parts)
+    size = min(int(SEGMENT * rate), max(32, longest // 3))
+    used = [r for r in parts if r.stop - r.start >= size]
+    total = np.zeros(size // 2 + 1)
+    for r in used:
+        f, p = signal.welch(x[r], rate, nperseg=size, detrend="constant")
+        total += p * (r.stop - r.start)
+    psd = total / sum(r.stop - r.start for r in used)
+    # The lowest bin is what is left of the mean.
+    return _bin_frequencies(f[2:], psd[2:], points)
+
+
+def pass_band(x: Array, rate: float, low: float, high: float) -> Array:
+    """(N,): what of a series, zero where it has no value, oscillates between two frequencies (Hz)."""
+    f = np.fft.rfftfreq(len(x), 1.0 / rate)
+    return np.asarray(np.fft.irfft(np.where((f >= low) & (f <= high), np.fft.rfft(x), 0.0), len(x)))
+
+
+def _bin_frequencies(f: Array, psd: Array, points: int) -> AmplitudeSpectrum:
+    edges = np.geomspace(f[0] * 0.999, f[-1] * 1.001, points + 1)
+    which = np.digitize(f, edges)
+    bins = np.unique(which)
+    mean = np.array([[np.mean(f[which == k]), np.mean(psd[which == k])] for k in bins])
+    return AmplitudeSpectrum(mean[:, 0], np.sqrt(mean[:, 1]))
+
+
+def compute_noise_density(w: PreparedFlight, k_ggi: float, spin: float, f: Array) -> Array:
+    """Density of the estimated noise of what was observed as G_out, Eo/sqrt(Hz)."""
+    return np.asarray(np.sqrt(compute_noise_psd(w, spin, f)) / k_ggi)
+
+
+def compute_noise_rms(w: PreparedFlight, k_ggi: float) -> float:
+    """rms of the estimated noise of what was observed as G_out, Eo."""
+    return float(np.sqrt(estimate_variance(w))) / abs(k_ggi)
+
+
+def measure_blocks(w: PreparedFlight, residual: Array, k_ggi: float) -> tuple[Array, Array]:
+    """Edges (BLOCKS + 1,) s and rms (BLOCKS,) Eo of a residual in the blocks of time (NaN: no valid sample)."""
+    r = w.observation.record
+    edges = r.time[np.minimum(w.edges, len(r.time) - 1)]
+    rms = np.full(BLOCKS, np.nan)
+    for b in range(BLOCKS):
+        part = slice(w.edges[b], w.edges[b + 1])
+        v = r.valid[part]
+        if np.any(v):
+            rms[b] = np.sqrt(np.mean(residual[part][v] ** 2)) / k_ggi
+    return edges, rms
+
+
+def find_worst(f: Fitted, residuals: Sequence[Array], most: int) -> list[int]:
+    """Positions of the ``most`` flights with the largest error over their noise, in the flights' own order."""
+    ratio = []
+    for w, e in zip(f.prepared, residuals, strict=True):
+        v = w.observation.record.valid
+        ratio.append(float(np.sqrt(np.mean(e[v] ** 2))) / compute_noise_rms(w, 1.0))
+    return sorted(sorted(range(len(ratio)), key=lambda n: -ratio[n])[:most])
+
+
 def pair_lines(before: Residuals, after: Residuals | None) -> Lines:
     """The lines of a figure of a residual, before a step and after it if there was one."""
     return [("residual", before)] if after is None else [("before", before), ("after", after)]
@@ -56,7 +183,7 @@ def _role(name: str) -> Any:
 
 def _list_worst(f: Fitted, residuals: Residuals) -> Iterator[tuple[int, PreparedFlight, float, str]]:
     """The flights that are drawn: number, flight, V/Eo, and its name where there are several."""
-    for n in series.find_worst(f, residuals, FLIGHTS):
+    for n in find_worst(f, residuals, FLIGHTS):
         w = f.prepared[n]
         yield n, w, f.scales[n], w.observation.name if len(f.prepared) > 1 else ""
 
@@ -66,14 +193,14 @@ def plot_blocks(f: Fitted, lines: Lines, *, envelope: bool = False) -> Curves:
     axes = []
     for n, w, k, name in _list_worst(f, lines[0][1]):
         r = w.observation.record
-        edges, level = r.time, series.compute_noise_rms(w, k)
+        edges, level = r.time, compute_noise_rms(w, k)
         steps = []
         for label, residuals in lines:
-            edges, rms = series.measure_blocks(w, residuals[n], k)
+            edges, rms = measure_blocks(w, residuals[n], k)
             steps.append(Curve(label, edges, rms, _role(label), "steps"))
         ends = (float(edges[0]), float(edges[-1]))
         if envelope:
-            e = series.decimate(r.time, lines[-1][1][n] / k, r.valid)
+            e = decimate(r.time, lines[-1][1][n] / k, r.valid)
             band = Curve("min-max", e.time, e.low, "envelope", "band", e.high)
             around = Curve("± rms", e.time, e.rms, width=0.9), Curve("_", e.time, -e.rms, width=0.9)
             axes.append(Axes((band, *around), "residual, Eo", name, ends, level, share=1.3))
@@ -91,14 +218,12 @@ def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
     axes = []
     for n, w, k, name in _list_worst(f, lines[0][1]):
         r = w.observation.record
-        found = [(label, series.estimate_spectrum(x[n] / k, r.valid, r.rate)) for label, x in lines]
+        found = [(label, estimate_spectrum(x[n] / k, r.valid, r.rate)) for label, x in lines]
         curves = [Curve(label, s.frequency, s.density, _role(label)) for label, s in found if s is not None]
         if not curves:
             continue
         grid, spin = curves[0].x, abs(r.spin_frequency)
-        curves.append(
-            Curve("noise, as estimated", grid, series.compute_noise_density(w, k, spin, grid), "noise")
-        )
+        curves.append(Curve("noise, as estimated", grid, compute_noise_density(w, k, spin, grid), "noise"))
         marks = tuple(
             (j * spin, "Ω" if j == 1 else f"{j}Ω") for j in range(1, 5) if grid[0] < j * spin < grid[-1]
         )
@@ -123,9 +248,9 @@ def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
         if not np.isfinite(made[0][1]).any():
             continue
         # four samples a cycle of the low-pass's edge draw the whole of it
-        step = max(1, int(r.rate / (4.0 * series.DRAWN)))
+        step = max(1, int(r.rate / (4.0 * DRAWN)))
         for channel, part, amplitude in (("inline", np.real, 4.0), ("cross", np.imag, 2.0)):
-            level = series.predict_demodulated_noise(w, k, 2, amplitude)
+            level = predict_demodulated_noise(w, k, 2, amplitude)
             curves = tuple(_channel(label, r.time[::step], part(x[::step])) for label, x in made)
             ends = (float(r.time[0]), float(r.time[-1]))
             title = f"{channel} of {name}" if name else channel
@@ -138,17 +263,17 @@ def _channel(label: str, time: Array, x: Array) -> Curve:
     """A line; its envelope where it has more points than can be drawn."""
     if len(x) <= MOST_POINTS:
         return Curve(label, time, x, _role(label), width=0.8)
-    e = series.decimate(time, x, np.isfinite(x), MOST_POINTS // 2)
+    e = decimate(time, x, np.isfinite(x), MOST_POINTS // 2)
     return Curve(label, e.time, e.low, _role(label), "band", e.high)
 
 
 def plot_harmonics(f: Fitted, residuals: Sequence[Array]) -> Bars | None:
     """The slow error at every harmonic of the spin, with what noise alone gives."""
     rows = {str(x["harmonic"]): float(str(x["rms_Eo"])) for x in comparison.measure_harmonics(f, residuals)}
-    noise = series.predict_harmonic_noise(f, rows)
+    noise = predict_harmonic_noise(f, rows)
     # four times the relative uncertainty of the rms of noise in the demodulator's bandwidth
     seconds = sum(float(w.observation.record.time[-1]) for w in f.prepared)
-    limit = 1.0 + 4.0 / np.sqrt(4.0 * series.BAND * max(seconds, 1.0))
+    limit = 1.0 + 4.0 / np.sqrt(4.0 * BAND * max(seconds, 1.0))
     bars = tuple(
         Bar(numbers.harmonic(h), rows[h], noise[h], bool(rows[h] > limit * noise[h]))
         for h in noise

@@ -13,11 +13,10 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.calibrate import information, invert_root
 from ragg_runtime.estimation.scores import demodulate_residual
-from ragg_runtime.identification import predict
-from ragg_runtime.identification import series as reported
 from ragg_runtime.io.record import DEMODULATED
 from ragg_runtime.report import panels
 from ragg_runtime.report.plots import draw_file
+from ragg_runtime.studio import predict
 from ragg_runtime.studio.session import State
 from ragg_runtime.wording import numbers
 from ragg_runtime.wording.sections import Plot
@@ -206,11 +205,11 @@ class View:
             case "left":
                 return self._predict_left()
             case "measured":
-                return reported.compute_measured(self.prepared)
+                return panels.compute_measured(self.prepared)
             case "residual":
                 return self.residual
             case "modelled":
-                return reported.compute_measured(self.prepared) - self.residual
+                return panels.compute_measured(self.prepared) - self.residual
             case "before":
                 return self._find_previous()
             case "term":
@@ -253,7 +252,7 @@ class View:
         except ValueError:
             expected = "band:0.2:0.3"
             raise UserError("a band is needed", found=repr(name[:40]), expected=expected) from None
-        return reported.pass_band(self.residual, self.record.rate, low, high)
+        return panels.pass_band(self.residual, self.record.rate, low, high)
 
     def rows(self) -> slice:
         """The samples of the window; UserError if these are too few for a spectrum."""
@@ -293,7 +292,7 @@ def draw_spectra(s: State, a: Asked) -> dict[str, Any]:
             x = v.volts(name)[rows]
         except UserError:
             continue
-        found = reported.estimate_spectrum(x / v.k_ggi, r.valid[rows], r.rate, DENSE)
+        found = panels.estimate_spectrum(x / v.k_ggi, r.valid[rows], r.rate, DENSE)
         if found is not None:
             lines[name] = found
     if not lines:
@@ -302,7 +301,7 @@ def draw_spectra(s: State, a: Asked) -> dict[str, Any]:
     return {
         "frequency": grid.tolist(),
         "lines": {k: x.density.tolist() for k, x in lines.items()},
-        "noise": reported.compute_noise_density(v.prepared, v.k_ggi, r.spin_frequency, grid).tolist(),
+        "noise": panels.compute_noise_density(v.prepared, v.k_ggi, r.spin_frequency, grid).tolist(),
         "spin_Hz": abs(r.spin_frequency),
     }
 

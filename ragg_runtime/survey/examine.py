@@ -24,8 +24,7 @@ from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.diagnose import diagnose_fitted
 from ragg_runtime.identification.parameters import SEEN, Estimates
-from ragg_runtime.identification.quality import heed_flags
-from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.identification.result import Diagnosis, heed_flags
 from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.files import read_recordings

@@ -24,7 +24,7 @@ from ragg_runtime.compensation.compensate import Kind, PreparedFlights, make_col
 from ragg_runtime.compensation.export.contents import Contents
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
-from ragg_runtime.identification import several_outputs
+from ragg_runtime.identification import comparison
 from ragg_runtime.identification.strong import Stage
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.model_toml import parse_instrument
@@ -64,19 +64,19 @@ def flight_of(which: str) -> tuple[Instrument, Flight]:
     return sheet, flown_by(sheet, DURATION)
 
 
-def compared(which: str) -> several_outputs.Together:
+def compared(which: str) -> comparison.Together:
     sheet, flight = flight_of(which)
     model, _ = derive.derived((), (), sheet.form, sheet.layout)
-    (found,) = several_outputs.compare_outputs(fit(model, sheet, observe_flights([flight], sheet)))
+    (found,) = comparison.compare_outputs(fit(model, sheet, observe_flights([flight], sheet)))
     return found
 
 
 def test_three_discs_see_the_tensor_and_close() -> None:
     found = compared("umbrella")
-    t, o = found.tensor, found.fitted.observations[0].record
+    t, (_, flight) = found.tensor, flight_of("umbrella")
     assert t is not None
-    true = np.stack([o.channels[f"Gamma_{c}"] for c in COMPONENTS])
-    off = (t.gamma - true[:, np.searchsorted(o.time, found.common)] / 1e-9) / t.std[:, None]
+    true = np.stack([flight.channels[f"Gamma_{c}"] for c in COMPONENTS])
+    off = (t.gamma - true[:, np.searchsorted(flight.time, found.time)] / 1e-9) / t.std[:, None]
     assert np.sqrt(np.mean(off**2)) < 1.5  # the calibration takes its own share
     assert 0.7 < t.quality < 1.4
     assert not found.differences()

@@ -17,11 +17,11 @@ from ragg_runtime.estimation.fitted import Fitted, fit, prepare_evidence
 from ragg_runtime.estimation.observation import Observation, observe_flights
 from ragg_runtime.estimation.regressors import compute_residual, group_by_effect
 from ragg_runtime.identification import next_motion
-from ragg_runtime.identification.next_motion import Alternatives, ChannelVariance, Sinusoid
+from ragg_runtime.identification.next_motion import Alternatives, Sinusoid
 from ragg_runtime.identification.selection import ProjectedProblem, make_problem
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model.model import load_packaged
-from ragg_runtime.next_flight import next_flight, write_run_sheet
+from ragg_runtime.next_flight import ChannelVariance, next_flight, write_run_sheet
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.motion import MotionSignals, Sinusoids
 from ragg_runtime.reference.scenario import Scenario, scenario

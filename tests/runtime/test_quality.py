@@ -13,8 +13,7 @@ from generated.output_effects import imu_saturation
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.identification.diagnose import diagnose
-from ragg_runtime.identification.quality import heed_flags
-from ragg_runtime.identification.result import Reason
+from ragg_runtime.identification.result import Reason, heed_flags
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.io.record import GRADIENT, Flag
 from ragg_runtime.model.model import load_packaged

@@ -17,8 +17,9 @@ import pytest
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.calibrate import list_combinations, list_parameters
+from ragg_runtime.estimation.fitted import predict_channel_noise
 from ragg_runtime.identification import comparison as compare
-from ragg_runtime.identification import result, series
+from ragg_runtime.identification import result
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.effects import EffectValues
@@ -212,7 +213,7 @@ def test_noise_in_the_channels_is_what_demodulated_noise_has(clean: compare.Comp
     noise = np.fft.irfft(spectrum, n)
     phi = 2 * np.pi * 0.25 * np.arange(n) / RATE
     d = demodulate(noise, phi, RATE, f.k_ggi)
-    inline, cross = series.predict_channel_noise(f)
+    inline, cross = predict_channel_noise(f)
     assert np.std(d.inline) == pytest.approx(inline, rel=0.05)
     assert np.std(d.cross) == pytest.approx(cross, rel=0.05)
 
@@ -222,7 +223,7 @@ def test_spectrum_has_the_density_of_white_noise_and_the_power_of_a_line() -> No
     n, density, amplitude = 1 << 16, 2.0, 40.0
     time = np.arange(n) / RATE
     x = rng.normal(0, density * math.sqrt(RATE / 2), n) + amplitude * np.sin(2 * np.pi * 3.0 * time)
-    s = series.estimate_spectrum(x, np.ones(n, bool), RATE)
+    s = panels.estimate_spectrum(x, np.ones(n, bool), RATE)
     assert s is not None
     away = np.abs(s.frequency - 3.0) > 0.2
     assert np.sqrt(np.mean(s.density[away] ** 2)) == pytest.approx(density, rel=0.03)

@@ -24,16 +24,14 @@ def _piece(sample: NDArray[np.intp]) -> Piece:
 
 
 def _scores(y: Array, X: Array, cuts: tuple[int, ...] = ()) -> BlockScores:
-    """Over segments that end at ``cuts``, each by itself, then joined."""
+    """Over segments that end at ``cuts``, one after the other."""
     total = BlockScores(len(X), TIME)
     for rows in np.split(np.arange(SAMPLES), list(cuts)):
-        part = BlockScores(len(X), TIME)
-        part.level(_piece(rows), y[rows])
+        total.level(_piece(rows), y[rows])
         half = len(X) // 2
         for at in (slice(0, half), slice(half, len(X) + 7)):  # more terms than are asked about
             columns = X[at, rows] if at.start == 0 else np.concatenate([X[half:, rows], X[:7, rows]])
-            part.add(_piece(rows), y[rows], at, columns.astype(np.float32))
-        total.join(part)
+            total.add(_piece(rows), y[rows], at, columns)
     return total
 
 

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from scipy import special
 
 from ragg_runtime.base.progress import one_thread
-from ragg_runtime.estimation import whitening
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.whitening import PreparedFlight
 from ragg_runtime.identification import omnibus
@@ -67,8 +66,7 @@ class Heat:
 @one_thread
 def score_terms(f: Fitted, flight: int, given: Sequence[int] = ()) -> Heat:
     """The scores of all terms in one flight once base and ``given`` candidate columns are projected out, in one pass."""
-    projector = whitening.make_projector(f.r_factors[flight], f.n_base, given)
-    prepared, projector, _ = projector.lean(f.prepared[flight])
+    prepared, projector, _ = omnibus.project_out(f, flight, given)
     s = Scores(prepared, projector)
     s.collect(lambda piece, y: None)
     norm = np.where(np.isfinite(s.norms), s.norms, np.nan)
@@ -80,7 +78,7 @@ def score_terms(f: Fitted, flight: int, given: Sequence[int] = ()) -> Heat:
     for k, t in enumerate(terms):
         if t.harmonic in row:
             at = row[t.harmonic], column[t.product]
-            z[at] = s.sums.dot[k] / norm[k]
+            z[at] = s.dot[k] / norm[k]
             coefficient[at] = z[at] / (norm[k] * s.dictionary.size(t))
     share = omnibus.FAMILY * omnibus.SHARES[0] / (2 * max(int(np.sum(np.isfinite(norm))), 1))
     return Heat(
