@@ -146,7 +146,6 @@ _A = tuple(_signal(_RNG, m, 0.3) for m in (0.15, -0.2, 1.0))
 _OMEGA = tuple(_signal(_RNG, m, 0.02) for m in (0.01, -0.02, 0.015))
 MOTION_TRUE = MotionSignals(_A, _OMEGA)
 GRAVITY = Gradient(np.array([300.0, 120.0, 50.0, 200.0, -80.0, -500.0]) * 1e-9)
-REFERENCE_VALUE = {"temperature": 293.15, "pressure": 101325.0}
 TEMPERATURE = _signal(_RNG, 294.0, 0.5)
 SIZES = {
     "roll": (0.02, 0.03), "pitch": (-0.01, 0.02), "pressure": (98000.0, 400.0), "B_x": (2e-5, 1e-5), "B_y": (-1e-5, 1e-5),
@@ -204,43 +203,28 @@ def _nothing() -> Record:
     return _reference({})
 
 
-def _bias_of(extra: Callable[[Mapping[str, Array]], Array]) -> Record:
-    """The record of an instrument with an additional specific force (4, N) in every accelerometer's bias."""
-    channels, V = _nothing()
-    k = INSTRUMENT.accelerometers
-    return channels, V + (k["k_VI"] * k["K1"])[:, None] * extra(channels)
-
-
 def _magnetic(value: Mapping[str, float]) -> Record:
-    def bias(c: Mapping[str, Array]) -> Array:
-        B = np.stack([c["B_x"], c["B_y"], c["B_z"]])
-        k = INSTRUMENT.accelerometers
-        mounts = [mount(FOUR.places[j], k["beta_x"][j], k["beta_z"][j], "first-order") for j in range(4)]
-        axes = [frame_rotation(*(k[f"vartheta_{a}"][j] for a in "xyz"), "first-order")[0] for j in range(4)]
-        inputs = [axis @ m.triad for axis, m in zip(axes, mounts, strict=True)]
-        cos, sin = c["cos_phi"], c["sin_phi"]
-        along = [(cos * x - sin * y) * B[0] + (sin * x + cos * y) * B[1] + z * B[2] for x, y, z in inputs]
-        return value["dK0_dB"] * np.stack(along)
-
-    return _bias_of(bias)
-
-
-def _jitter(value: Mapping[str, float]) -> Record:
-    # A random angle that happens to be constant is an offset of the angle.
-    return _reference({"spin-phase-offset": {"phi_0": sum(value.values())}})
+    channels, V = _nothing()
+    B, k = np.stack([channels[f"B_{n}"] for n in "xyz"]), INSTRUMENT.accelerometers
+    mounts = [mount(FOUR.places[j], k["beta_x"][j], k["beta_z"][j], "first-order") for j in range(4)]
+    axes = [frame_rotation(*(k[f"vartheta_{a}"][j] for a in "xyz"), "first-order")[0] for j in range(4)]
+    inputs = [axis @ m.triad for axis, m in zip(axes, mounts, strict=True)]
+    cos, sin = channels["cos_phi"], channels["sin_phi"]
+    along = [(cos * x - sin * y) * B[0] + (sin * x + cos * y) * B[1] + z * B[2] for x, y, z in inputs]
+    return channels, V + (k["k_VI"] * k["K1"])[:, None] * value["dK0_dB"] * np.stack(along)
 
 
 def _curved(value: Mapping[str, float]) -> Record:
     # what the converter makes of the sum, all voltages have lost alike
     channels, V = _reference({"output-curve": value})
-    G = _nothing()[0]["G_out"]
-    return channels, V * (channels["G_out"] / G)
+    return channels, V * (channels["G_out"] / _nothing()[0]["G_out"])
 
 
 DIRECT: Mapping[str, Callable[[Mapping[str, float]], Record]] = {
     "magnetic-bias": _magnetic,
     "output-curve": _curved,
-    "spin-rate-jitter": _jitter,
+    # a random angle that happens to be constant is an offset of the angle
+    "spin-rate-jitter": lambda value: _reference({"spin-phase-offset": {"phi_0": sum(value.values())}}),
 }
 """Effects that the reference knows as a random process, or but along the nominal axes, written down again."""
 

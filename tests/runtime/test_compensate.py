@@ -425,11 +425,11 @@ def test_parameters_walk_on_between_flights(monkeypatch: pytest.MonkeyPatch) -> 
 
 def test_drifting_gains_are_followed_and_constant_ones_left_alone() -> None:
     """What is compensated with them is as sure as it says; with constant parameters it is not."""
-    s = scenario(3, duration=450.0, rate=RATE, gradient_rms=50e-9)
+    s = scenario(3, duration=300.0, rate=RATE, gradient_rms=50e-9)
     still = s.simulate({}).flight()
     f = fit(load_packaged(), s.sheet, observe_flights([still], s.sheet), candidates=False)
     assert drift.smooth_drift(f, [still]).rates == {}
-    x = s.simulate({"gain-drift": {"dK1_dt": [2e-10, -2e-10, 4e-11, -4e-11]}}).flight()  # 1/s: 1e-7 in 500 s
+    x = s.simulate({"gain-drift": {"dK1_dt": [4e-10, -4e-10, 8e-11, -8e-11]}}).flight()  # 1/s: 1e-7 in 250 s
     rms = {}
     for kind in ("self", "smoothed"):
         ((c,),) = prepare(load_packaged(), s.sheet, [x], kind).channels  # type: ignore[arg-type]
