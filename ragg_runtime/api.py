@@ -23,13 +23,11 @@ from ragg_runtime.compensation import calibrate as _calibrate
 from ragg_runtime.compensation import compensate as _compensate
 from ragg_runtime.compensation import frozen as _frozen
 from ragg_runtime.compensation import recursive as _recursive
-from ragg_runtime.compensation.calibrate import Calibrated
+from ragg_runtime.compensation.calibrate import Calibrated, saved_calibration
 from ragg_runtime.compensation.compensate import Compensation, Kind
 from ragg_runtime.compensation.drift import Drift, smooth_drift
-from ragg_runtime.compensation.export.contents import Contents
-from ragg_runtime.compensation.export.program import FORMS, write_export
+from ragg_runtime.compensation.export import FORMS, Contents, write_export
 from ragg_runtime.compensation.frozen import Held
-from ragg_runtime.compensation.saved import saved_calibration
 from ragg_runtime.estimation.fitted import list_noise_floor
 from ragg_runtime.estimation.scores import list_errors
 from ragg_runtime.identification import comparison as _compare

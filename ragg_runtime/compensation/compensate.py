@@ -13,7 +13,14 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.progress import one_thread
-from ragg_runtime.compensation.calibrate import fit_some, information, invert_root, list_base_r_factors
+from ragg_runtime.compensation.calibrate import (
+    Saved,
+    fit_some,
+    information,
+    invert_root,
+    list_base_r_factors,
+    saved_calibration,
+)
 from ragg_runtime.compensation.channel import MEANING, NO_VALUE, Compensated, OutputChannel, Quality
 from ragg_runtime.compensation.drift import find_starts, smooth_drift
 from ragg_runtime.compensation.frozen import (
@@ -23,7 +30,6 @@ from ragg_runtime.compensation.frozen import (
     retest_change,
     warn_of_change,
 )
-from ragg_runtime.compensation.saved import Saved, saved_calibration
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import (

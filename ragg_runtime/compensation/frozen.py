@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.base.progress import one_thread
-from ragg_runtime.compensation.calibrate import invert_root, list_base_r_factors
-from ragg_runtime.compensation.saved import Saved
+from ragg_runtime.compensation.calibrate import Saved, invert_root, list_base_r_factors
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, prepare_evidence
 from ragg_runtime.estimation.least_squares import join

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.compensation.export.program import write_values
+from ragg_runtime.compensation.export import write_values
 from ragg_runtime.compensation.recursive import UPDATE
 from ragg_runtime.io import read_flight, write_flight
 from ragg_runtime.model.model import evaluate_output, make_vector, scale_factor
