@@ -23,7 +23,7 @@ from ragg_runtime.compensation import calibrate as _calibrate
 from ragg_runtime.compensation import compensate as _compensate
 from ragg_runtime.compensation import frozen as _frozen
 from ragg_runtime.compensation import recursive as _recursive
-from ragg_runtime.compensation.calibrate import Calibrated, saved_calibration
+from ragg_runtime.compensation.calibrate import Calibrated, count_directions, saved_calibration
 from ragg_runtime.compensation.compensate import Compensation, Kind
 from ragg_runtime.compensation.drift import Drift, smooth_drift
 from ragg_runtime.compensation.export import FORMS, Contents, write_export
@@ -365,7 +365,7 @@ class Kept:
     drift: Drift | None = None
 
     def __repr__(self) -> str:
-        seen, of = self.calibrated.directions
+        seen, of = count_directions(self.calibrated.fitted)
         return (
             f"<calibration of {self.loaded.name}: {self.calibrated.error.rms_Eo:.4g} Eo rms, "
             f"{seen} of {of} directions seen>"

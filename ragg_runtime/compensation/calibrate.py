@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy import linalg
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, fit, list_noise_floor, measure_noise_floor
 from ragg_runtime.estimation.least_squares import Linear, add_prior, join
 from ragg_runtime.estimation.observation import observe_flights
@@ -41,11 +42,6 @@ class Calibrated:
     error: Error
     holdout: Error
 
-    @property
-    def directions(self) -> tuple[int, int]:
-        """How many directions of the parameters the record determines, and how many there are."""
-        return count_directions(self.fitted)
-
     def as_json(self) -> dict[str, Any]:
         """As ``ragg calibrate --json`` writes it."""
         f = self.fitted
@@ -54,7 +50,7 @@ class Calibrated:
             "effects": [e.id for e in f.model.effects],
             "error": self.errors_json(),
             "noise_floor": list_noise_floor(f, measure_noise_floor(f)),
-            "directions": dict(zip(("seen", "fitted"), self.directions, strict=True)),
+            "directions": dict(zip(("seen", "fitted"), count_directions(f), strict=True)),
             "parameters": list_parameters(f),
             "combinations": list_combinations(f),
         }
@@ -165,6 +161,13 @@ def invert_root(R: Array) -> Array:
 def list_base_r_factors(f: Fitted, k: int) -> list[Array]:
     """Of an observation the R factors [base | residual] of its blocks of time."""
     return [t[:, [*range(f.n_base), -1]] for t in f.r_factors[k]]
+
+
+def move_parameters(c: Calibration, step: Array | float) -> Array:
+    """(size,), SI: the parameters that are a step (n,), in scales, from those of a calibration."""
+    p = c.p.copy()
+    p[c.index] += step * np.array([q.scale for q in c.columns])
+    return p
 
 
 def fit_some(f: Fitted, r_factors: Sequence[Array]) -> tuple[Array, Array]:

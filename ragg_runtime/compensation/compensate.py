@@ -19,6 +19,7 @@ from ragg_runtime.compensation.calibrate import (
     information,
     invert_root,
     list_base_r_factors,
+    move_parameters,
     saved_calibration,
 )
 from ragg_runtime.compensation.channel import MEANING, NO_VALUE, Compensated, OutputChannel, Quality
@@ -32,6 +33,7 @@ from ragg_runtime.compensation.frozen import (
 )
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, fit
+from ragg_runtime.estimation.noise import NoiseModel
 from ragg_runtime.estimation.observation import (
     ROWS,
     Observation,
@@ -190,16 +192,13 @@ def prepare(
     elif kind == "smoothed":
         d = smooth_drift(f, flights)
         c, parts = d.f.calibration, [d.follow(o.flight) for o in observations]
-    made = [
-        _make_channel(model, instrument, flights[o.flight], o, c, n, parts[n], demodulator)
-        for n, o in enumerate(observations)
-        if n in seeing
-    ]
-    if saved is not None:
-        broken = 0 if change is None or change.holds else int(Quality.CALIBRATION)
-        made = [replace(x, validity=saved.validity, flags=broken) for x in made]
-    channels = (tuple(x for x in made if x.observation.flight == k) for k in range(len(flights)))
-    return PreparedFlights(flights, tuple(channels), c, change)
+    broken = 0 if change is None or change.holds else int(Quality.CALIBRATION)
+    channels: list[list[OutputChannel]] = [[] for _ in flights]
+    for n in seeing:
+        o = observations[n]
+        x = _make_channel(model, instrument, flights[o.flight], o, c, c.noise[n], parts[n], demodulator)
+        channels[o.flight].append(replace(x, validity=saved.validity if saved else {}, flags=broken))
+    return PreparedFlights(flights, tuple(map(tuple, channels)), c, change)
 
 
 def follow_others(f: Fitted, o: Observation) -> Iterator[Part]:
@@ -220,12 +219,12 @@ def _make_channel(
     flight: Flight,
     o: Observation,
     c: Calibration,
-    n: int,
+    noise: NoiseModel,
     parts: Iterable[Part],
     demodulator: str,
 ) -> OutputChannel:
-    """The ``n``-th observation ready to be compensated; UserError if the flight is too short for the demodulator."""
-    d, scales = find_demodulator(demodulator, o.record.rate), np.array([q.scale for q in c.columns])
+    """An observation ready to be compensated; UserError if the flight is too short for the demodulator."""
+    d = find_demodulator(demodulator, o.record.rate)
     least = sum(d.settling) + 1
     if len(flight.time) < least:
         raise UserError(
@@ -235,11 +234,6 @@ def _make_channel(
             expected=f"at least {least / d.rate:.3g} s for {d.name}",
             remedy="give a longer recording, or choose another --demodulator",
         )
-    blocks = []
-    for rows, step, root in parts:
-        p = c.p.copy()
-        p[c.index] += step * scales
-        blocks.append(Block(rows, p, root))
     recorded: Complex | None = None
     if o.recorded.demodulated:  # by its recorder: put right for the calibrated scale factor
         known: Complex = flight.outputs["inline"] + 1j * flight.outputs["cross"]
@@ -248,10 +242,10 @@ def _make_channel(
         model=model,
         observation=o,
         about=c.p,
-        blocks=tuple(blocks),
+        blocks=tuple(Block(rows, move_parameters(c, step), root) for rows, step, root in parts),
         demodulator=d,
         columns=c.columns,
-        noise=c.noise[n],
+        noise=noise,
         recorded=recorded,
     )
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from scipy import optimize
 
 from ragg_runtime.base.progress import split_range
-from ragg_runtime.compensation.calibrate import invert_root, list_base_r_factors
+from ragg_runtime.compensation.calibrate import invert_root, list_base_r_factors, move_parameters
 from ragg_runtime.estimation.calibration import estimate_noises
 from ragg_runtime.estimation.fitted import Fitted, prepare_evidence
 from ragg_runtime.estimation.least_squares import join
@@ -139,9 +139,8 @@ def smooth_drift(f: Fitted, flights: Sequence[Flight]) -> Drift:
         if not d.rates or (turn and np.max(np.abs(mean)) < NEAR):
             break
         c = d.f.calibration
-        p = c.p.copy()
-        p[c.index] += mean * np.array([q.scale for q in c.columns])
-        c = replace(c, p=p, noise=c.noise if turn else tuple(_estimate_noise(d)))
+        noise = c.noise if turn else tuple(_estimate_noise(d))
+        c = replace(c, p=move_parameters(c, mean), noise=noise)
         f = prepare_evidence(f.model, f.instrument, f.observations, c, candidates=False)
         d = _smooth(f, starts, timed, d.rates if turn else None)
     return d

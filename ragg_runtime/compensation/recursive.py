@@ -37,10 +37,7 @@ from ragg_runtime.workspace import Loaded
 Array = NDArray[np.float64]
 
 UPDATE = 0.25
-"""The gradient takes a step of its walk after so many seconds: it does not change within them."""
-
-FADE = 10.0
-"""Parameters forget in steps of so many seconds."""
+"""After so many seconds the gradient takes a step of its walk, and parameters forget: they do not change within them."""
 
 STEEPER = 2.0
 """Walk of the inline channel over that of the cross one: Gamma_xx - Gamma_yy of a field without a preferred direction varies
@@ -90,7 +87,7 @@ class Online:
         walk time, inline, cross, their standard deviations, Eo, and quality.
         """
         step = self.tuning.walk * np.array([0.0] * len(self.own) + [STEEPER, 1.0])
-        before = walked = faded = float(o.record.time[0])
+        before = walked = float(o.record.time[0])
         found, flag = [], 0
         waiting: list[Array] = []
         for some in split_range(len(o.record.time), ROWS):
@@ -100,11 +97,8 @@ class Online:
                 if stepped:
                     self._fold(waiting)
                     self.R = walk_on(self.R, step * np.sqrt(t - walked))
+                    self._fade(t - walked)
                     walked = t
-                if t - faded >= FADE:
-                    self._fold(waiting)
-                    self._fade(t - faded)
-                    faded = t
                 whole = valid and bool(np.isfinite(row).all())
                 if whole:
                     waiting.append(row)

@@ -8,7 +8,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import resources
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -329,20 +328,14 @@ def make_tests(c: Contents) -> Files:
     found = {}
     for name, derived in (("motion", False), ("derived_motion", True)):
         motion, outputs = c.example(derived=derived)
-        columns = {f"{n} [{unit_of(n)}]": x for n, x in motion.items()}
-        found[f"test/{name}.csv"] = format_csv(columns | {f"{n} [V]": x for n, x in outputs.items()})
+        header = [*(f"{n} [{unit_of(n)}]" for n in motion), *(f"{n} [V]" for n in outputs)]
+        rows = zip(*motion.values(), *outputs.values(), strict=True)
+        lines = [",".join(header), *(",".join(f"{x:.17g}" for x in row) for row in rows)]
+        found[f"test/{name}.csv"] = "\n".join(lines) + "\n"
     return found
 
 
-def format_csv(columns: Mapping[str, NDArray[np.float64]]) -> str:
-    """Columns as CSV with 17 digits."""
-    rows = zip(*columns.values(), strict=True)
-    return "\n".join([",".join(columns), *(",".join(f"{x:.17g}" for x in row) for row in rows)]) + "\n"
-
-
-FORMS: Mapping[str, Callable[[Contents], Files]] = MappingProxyType(
-    {"c": make_c, "numpy": make_numpy, "json": make_json}
-)
+FORMS: Mapping[str, Callable[[Contents], Files]] = {"c": make_c, "numpy": make_numpy, "json": make_json}
 """Form of an export -> its files."""
 
 MARK = ".ragg-export"
