@@ -1,7 +1,7 @@
 """Whole commands, the start of Python included, in processor time; and what each further sample costs that is compensated.
 
 Processor time of the command's own process and its children, which other work on the machine lengthens less than the wall
-clock. Each command has run once before: what it derives and compiles is kept (the first time is a row of its own).
+clock. Medians of three: what the first one derives and compiles is kept (the very first time is a row of its own).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from ragg_runtime.simulate import simulate_flight
 
 REPEATS = 3
 HIDDEN = "thermal-scale:dK1_dT=0/0/6e-8/0"
-SHORT, LONG = 1_000_000, 3_000_000
+SHORT, LONG = 500_000, 1_500_000
 """Samples of the flights of which the difference is what a further sample costs."""
 
 
@@ -40,57 +40,59 @@ def run() -> list[Row]:
         write_flight(flight, known)
         write_flight(simulate_flight(m.instrument, [HIDDEN], seed=1, duration=1800.0), unknown)
         write_flight(simulate_flight(m.instrument, [HIDDEN], seed=1, duration=3600.0, rate=100.0), hour)
-        first = measure_processor(_ragg("diagnose", model, known), XDG_CACHE_HOME=str(folder / "cold"))
+        first = measure("diagnose", model, known, XDG_CACHE_HOME=str(folder / "cold"))
+        in_hour = measure("diagnose", model, hour)
+        memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
 
         def copy_model() -> None:
             shutil.rmtree(copy, ignore_errors=True)
             shutil.copytree(model, copy)
 
         return [
-            _row("start of Python and SymPy", ["-c", "import sympy"]),
-            _row("import ragg", ["-c", "import ragg"], 0.2),
-            _row("ragg --help", _ragg("--help"), 0.2),
-            _row("ragg effects", _ragg("effects"), 0.2),
-            _row("ragg derive, everything", _ragg("derive", "--out", str(folder / "derived")), 3.0),
-            Row("ragg diagnose, the very first time", first, "s CPU", "derives and compiles"),
-            _row("ragg compare", _ragg("compare", model, known)),
-            _row("ragg diagnose", _ragg("diagnose", model, known), 1.5),
-            _row("ragg diagnose, gradient unknown", _ragg("diagnose", model, unknown)),
-            Row("ragg diagnose, an hour at 100 Hz", measure_processor(_ragg("diagnose", model, hour)), "s CPU", limit=20.0),
-            _row("ragg add", _ragg("add", str(copy), "thermal-scale", known), 2.5, copy_model),
+            _row("import ragg", 0.2, python=("-c", "import ragg")),
+            _row("ragg --help", 0.2, "--help"),
+            _row("ragg effects", 0.2, "effects"),
+            Row("ragg derive, everything", measure("derive", "--out", str(folder / "derived")), "s CPU", 3.0),
+            Row("ragg diagnose, the very first time", first, "s CPU"),
+            _row("ragg compare", None, "compare", model, known),
+            _row("ragg diagnose", 1.5, "diagnose", model, known),
+            _row("ragg diagnose, gradient unknown", None, "diagnose", model, unknown),
+            Row("ragg diagnose, an hour at 100 Hz", in_hour, "s CPU", 20.0),
+            Row("ragg diagnose, an hour at 100 Hz, peak memory", memory, "MB"),
+            _row("ragg add", 2.5, "add", str(copy), "thermal-scale", known, prepare=copy_model),
             *_compensation(flight, folder),
-        ]  # fmt: skip
+        ]
 
 
-def _ragg(*arguments: str) -> list[str]:
-    return ["-m", "ragg_runtime", *arguments]
-
-
-def measure_processor(arguments: list[str], **environment: str) -> float:
-    """Processor time, s, of Python with these arguments, whose modules are kept as bytecode, as an installed package has them."""
+def measure(*arguments: str, python: tuple[str, ...] = ("-m", "ragg_runtime"), **environment: str) -> float:
+    """Processor time, s, of ``ragg`` with these arguments, whose modules are kept as bytecode, as an installed package has them."""
     own = {k: x for k, x in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"} | environment
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run([sys.executable, *arguments], check=True, capture_output=True, env=own)
+    subprocess.run([sys.executable, *python, *arguments], check=True, capture_output=True, env=own)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def _row(
-    name: str, arguments: list[str], limit: float | None = None, prepare: Callable[[], None] = lambda: None
+    name: str,
+    limit: float | None,
+    *arguments: str,
+    prepare: Callable[[], None] = lambda: None,
+    **how: tuple[str, ...],
 ) -> Row:
     found = []
-    for _ in range(REPEATS + 1):
+    for _ in range(REPEATS):
         prepare()
-        found.append(measure_processor(arguments))
-    return Row.of(name, found[1:], "s CPU", limit=limit)
+        found.append(measure(*arguments, **how))
+    return Row(name, found, "s CPU", limit)
 
 
 def _compensation(flight: Flight, folder: Path) -> list[Row]:
-    """Frozen, from Parquet to Parquet, on one thread: what a further sample costs."""
+    """Frozen, from Parquet to Parquet: what a further sample costs."""
     model = str(folder / "model")
-    measure_processor(_ragg("calibrate", model, str(folder / "flight.parquet"), "--save"))
-    commands = []
-    for samples in (SHORT, LONG):
+    measure("calibrate", model, str(folder / "flight.parquet"), "--save")
+    paths = [folder / f"{samples}.parquet" for samples in (SHORT, LONG)]
+    for samples, path in zip((SHORT, LONG), paths, strict=True):
         repeated = replace(
             flight,
             time=np.arange(samples) / flight.rate,
@@ -98,15 +100,12 @@ def _compensation(flight: Flight, folder: Path) -> list[Row]:
             outputs={n: np.resize(x, samples) for n, x in flight.outputs.items()},
             valid=np.ones(samples, dtype=np.bool_),
         )
-        path = folder / f"{samples}.parquet"
         write_flight(repeated, path)
-        options = ("--calibration", "frozen", "-o", str(folder / "compensated.parquet"))
-        commands.append(_ragg("compensate", model, str(path), *options))
-    # in turn, the first of each for nothing: a difference of two times alone may come out at half of it or twice
-    spent = np.array([[measure_processor(c) for c in commands] for _ in range(REPEATS + 1)])[1:]
-    millions = (LONG - SHORT) / 1e6 / np.maximum(spent[:, 1] - spent[:, 0], 1e-6)
-    note = "of the further ones, on one core"
+    options = ("--calibration", "frozen", "-o", str(folder / "compensated.parquet"))
+    # in turn: a difference of two times alone may come out at half of it or twice
+    spent = [[measure("compensate", model, str(p), *options) for p in paths] for _ in range(REPEATS)]
+    short, long = np.transpose(spent)
     return [
-        Row.of("ragg compensate, a million samples", list(spent[:, 0]), "s CPU", note="frozen; Parquet to Parquet"),
-        Row.of("ragg compensate, samples a second", list(millions), "million", note=note, limit=5.0, at_least=True),
+        Row("ragg compensate, half a million samples", short, "s CPU"),
+        Row("ragg compensate, further samples a second", (LONG - SHORT) / 1e6 / (long - short), "million", 5.0, True),
     ]  # fmt: skip

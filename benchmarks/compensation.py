@@ -2,15 +2,13 @@
 
 python -m benchmarks.compensation                   gain from 1 s to 1 h; a figure of the site
 python -m benchmarks.compensation --calibration     designed calibration runs against even multisines of the same size
-python -m benchmarks.compensation --drift           coverage on surveys of several flights with parameters that walk
 """
 
 from __future__ import annotations
 
-import dataclasses
 import sys
 from collections.abc import Sequence
-from datetime import UTC, datetime, timedelta
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -27,8 +25,7 @@ from ragg_runtime.io import Flight
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.next_flight import ChannelVariance
 from ragg_runtime.reference.motion import MotionSignals, Sinusoids
-from ragg_runtime.reference.scenario import Scenario, draw_gradient, draw_motion, scenario
-from ragg_runtime.reference.simulate import combine
+from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulators import DEMODULATORS, find_demodulator
 
 Array = NDArray[np.float64]
@@ -50,15 +47,22 @@ def transfer(duration: float = 7200.0) -> dict[str, tuple[Complex, Complex]]:
     g = SIZE * basis.sum(axis=1)
     phi = 2 * np.pi * s.sheet.spin_frequency * t
     waves = 1e-9 * s.instrument.scale_factor * (g.real / 2 * np.sin(2 * phi) - g.imag * np.cos(2 * phi))
-    more = dataclasses.replace(x, outputs={"G_out": x.outputs["G_out"] + waves})
+    more = replace(x, outputs={"G_out": x.outputs["G_out"] + waves})
     found, both = {}, [prepare(load_packaged(), s.sheet, [y], "self").channels[0][0] for y in (more, x)]
     for name in DEMODULATORS:
-        c, other = (dataclasses.replace(y, demodulator=find_demodulator(name, s.rate)) for y in both)
+        c, other = (replace(y, demodulator=find_demodulator(name, s.rate)) for y in both)
         difference = c.compensate().gradient - other.compensate().gradient
         ok = np.isfinite(difference.real)
         gains = np.linalg.lstsq(basis[ok], difference[ok] / SIZE, rcond=None)[0]
         found[name] = gains, np.asarray(c.demodulator.response(1 / PERIODS))
     return found
+
+
+def print_gains() -> None:
+    """Of each demodulator."""
+    for name, (gains, alone) in transfer().items():
+        for period, gain, low in zip(PERIODS, gains, alone, strict=True):
+            print(f"{name:12} {period:7g} s  {abs(gain):.4f}, low-pass alone {abs(low):.4f}")
 
 
 def draw_transfer(file: Path) -> None:
@@ -71,16 +75,15 @@ def draw_transfer(file: Path) -> None:
     fig, ax = plt.subplots(figsize=(7.2, 4.0), layout="constrained")
     for name, (gains, alone) in transfer().items():
         (line,) = ax.semilogx(PERIODS, abs(alone), lw=1.2, label=f"{name}: low-pass alone")
-        ax.semilogx(
-            PERIODS, abs(gains), "o", ms=5, mfc="none", color=line.get_color(), label=f"{name}: compensated"
-        )
+        style = {"ms": 5, "mfc": "none", "color": line.get_color(), "label": f"{name}: compensated"}
+        ax.semilogx(PERIODS, abs(gains), "o", **style)
     ax.set(xlabel="period of the gradient, s", ylabel="gain", ylim=(-0.05, 1.1))
     ax.grid(alpha=0.3)
     ax.legend(fontsize=8)
     fig.savefig(file, dpi=130)
 
 
-# --- calibration runs ----------------------------------------------------------------------------------
+# --- calibration runs ------------------------------------------------------------------------------------
 
 RUN = 600.0
 """Of a calibration run, s."""
@@ -99,18 +102,16 @@ def fly_sinusoids(s: Scenario, motion: Sequence[Sinusoid], duration: float) -> F
             f, size, phase = zip(*own, strict=True) if own else ((), (), ())
             parts[f"{group}_{k}"] = Sinusoids(float(np.mean(signal.value(t))), size, f, phase)
     x, y, z, wx, wy, wz = (parts[n] for n in next_motion.AXES)
-    other = dataclasses.replace(
-        s, motion=MotionSignals((x, y, z), (wx, wy, wz)), seed=s.seed + 1000, duration=duration
-    )
+    other = replace(s, motion=MotionSignals((x, y, z), (wx, wy, wz)), seed=s.seed + 1000, duration=duration)
     return other.simulate(PAPER_ORDER).flight("run")
 
 
-def calibrate_by_runs(seed: int) -> list[tuple[str, float, Array, Array]]:
-    """Of each run its name, length, s, and rms that the parameters add to inline and cross, Eo, as they are uncertain and as they err."""
+def calibrate_by_runs(seed: int) -> dict[tuple[str, float], Array]:
+    """Of each run by name and length, s, (2, 2) rms, Eo, that the parameters add to inline and cross: as uncertain, as they err."""
     s = scenario(seed, duration=300.0, rate=8.0)
     sim = s.simulate(PAPER_ORDER)
     flight = sim.flight()
-    (clean,) = observe_flights([dataclasses.replace(flight, outputs=dict(sim.outputs_noise_free))], s.sheet)
+    (clean,) = observe_flights([replace(flight, outputs=dict(sim.outputs_noise_free))], s.sheet)
 
     def fitted(*flights: Flight) -> ChannelVariance:
         observed = observe_flights(flights, s.sheet)
@@ -120,20 +121,21 @@ def calibrate_by_runs(seed: int) -> list[tuple[str, float, Array, Array]]:
     tones = next_motion.list_tones(s.sheet.spin_frequency, next_motion.LIMITS, band)
     designed = next_motion.find_motion(first.known, first.weigh_variance, tones, RUN)
     even = next_motion.share_evenly(tones)
-    runs: list[tuple[str, Sequence[Sinusoid], float]] = [("none", (), 0.0), ("designed", designed, RUN)]
-    runs += [("even", even, times * RUN) for times in (1, 2, 4)]
-    found = []
-    for name, motion, duration in runs:
-        c = fitted(flight, fly_sinusoids(s, motion, duration)) if duration else first
+    found = {}
+    for name, motion, times in (
+        ("none", (), 0),
+        ("designed", designed, 1),
+        *(("even", even, n) for n in (1, 2, 4)),
+    ):
+        c = fitted(flight, fly_sinusoids(s, motion, times * RUN)) if times else first
         f = c.known.f
         left = compute_residual(
             f.model, clean, f.calibration.p
-        )  # of what has no noise: what the parameters are wrong by
-        r = clean.record
-        g = demodulate_residual(left[0], r, f.k_ggi)
+        )  # what the parameters are wrong by: without noise
+        g = demodulate_residual(left[0], clean.record, f.k_ggi)
         g = g[np.isfinite(g)]
         error = [np.sqrt(np.mean(x**2)) for x in (g.real, g.imag)]
-        found.append((name, duration, np.array(c.rms(c.known.root)), np.array(error)))
+        found[name, times * RUN] = np.array([c.rms(c.known.root), error])
     return found
 
 
@@ -141,82 +143,10 @@ def print_calibrations(seeds: Sequence[int] = range(8)) -> None:
     """Root mean squares over instruments."""
     every = [calibrate_by_runs(seed) for seed in seeds]
     print(f"{len(every)} instruments, flight of 300 s and a run; inline, cross, Eo: uncertain by, wrong by")
-    for of_run in zip(*every, strict=True):
-        name, duration, *_ = of_run[0]
-        sure, error = (np.sqrt(np.mean(np.square([x[k] for x in of_run]), axis=0)) for k in (2, 3))
+    for name, duration in every[0]:
+        sure, error = np.sqrt(np.mean([x[name, duration] ** 2 for x in every], axis=0))
         print(f"{name:9} {duration:5.0f} s  {sure[0]:.3f} {sure[1]:.3f}  {error[0]:.3f} {error[1]:.3f}")
 
 
-# --- surveys with parameters that walk -----------------------------------------------------------------
-
-FLIGHTS, LENGTH = 4, 300.0
-"""Of a survey, and the length of each, s."""
-
-
-def fly_survey(seed: int) -> tuple[Scenario, list[Flight]]:
-    """Flights with 0.2 to 2 h between them, over a gradient that varies by 30 Eo.
-
-    Scale factors, and tilts of the input axes into a_z, of all four accelerometers walk by 1e-8 to 5e-7 after an hour, each kind in
-    seven of ten surveys.
-    """
-    rng, s = np.random.default_rng(seed), scenario(seed, duration=LENGTH, rate=4.0)
-    starts = np.cumsum([0.0, *(LENGTH + 3600 * rng.uniform(0.2, 2.0, FLIGHTS - 1))])
-    seconds = np.arange(0.0, starts[-1] + LENGTH + 1.0)
-    walks = np.cumsum(rng.standard_normal((2, 4, len(seconds))), axis=-1) / 60.0  # 1 after an hour
-    walks *= (10 ** rng.uniform(-8.0, -6.3, 2) * (rng.random(2) < 0.7))[:, None, None]
-    k, flights = s.instrument.accelerometers, []
-    for n, start in enumerate(starts):
-        own = dataclasses.replace(
-            s,
-            motion=draw_motion(np.random.default_rng([seed, n, 1]), LENGTH),
-            gravity=draw_gradient(np.random.default_rng([seed, n, 2]), 30e-9),
-            seed=1000 * seed + n,
-        )
-        sim = own.simulate({})
-        gain, tilt = (np.stack([np.interp(start + sim.time, seconds, w) for w in of]) for of in walks)
-        V = sim.voltages * (1 + gain) - (k["k_VI"] * k["K1"])[:, None] * tilt * sim.channels["a_z"]
-        day = datetime(2026, 3, 1, 22, tzinfo=UTC) + timedelta(seconds=float(start))
-        flights.append(dataclasses.replace(sim.flight(), outputs={"G_out": combine(V)}, origin=day))
-    return s, flights
-
-
-def score_survey(seed: int, kind: str) -> Array:
-    """Errors of inline and cross over their standard uncertainties, every two seconds of all flights."""
-    s, flights = fly_survey(seed)
-    p = prepare(load_packaged(), s.sheet, flights, kind)  # type: ignore[arg-type]
-    found = []
-    for x, (c,) in zip(flights, p.channels, strict=True):
-        y = c.compensate()
-        g = x.channels["Gamma_xx"] - x.channels["Gamma_yy"] + 1j * x.channels["Gamma_xy"]
-        off = y.gradient - c.demodulator.low_passed(g / 1e-9)
-        found += [(off.real / y.std[0])[::8], (off.imag / y.std[1])[::8]]
-    z = np.concatenate(found)
-    return z[np.isfinite(z)]
-
-
-def print_coverage(seeds: Sequence[int] = range(100, 120)) -> None:
-    """Of each survey, and of all, the shares within 1 and 2 standard uncertainties."""
-    for kind in ("smoothed", "self"):
-        every = []
-        for seed in seeds:
-            every.append(score_survey(seed, kind))
-            print(kind, seed, _coverage(every[-1]), flush=True)
-        print(kind, "all", _coverage(np.concatenate(every)))
-
-
-def _coverage(z: Array) -> str:
-    inside = [float(np.mean(np.abs(z) < k)) for k in (1.0, 2.0)]
-    return f"{100 * inside[0]:.1f} % {100 * inside[1]:.1f} %, rms {np.sqrt(np.mean(z**2)):.2f}, of {len(z)}"
-
-
-def print_gains() -> None:
-    """Of each demodulator."""
-    for name, (gains, alone) in transfer().items():
-        for period, gain, low in zip(PERIODS, gains, alone, strict=True):
-            print(f"{name:12} {period:7g} s  {abs(gain):.4f}, low-pass alone {abs(low):.4f}")
-
-
 if __name__ == "__main__":
-    asked = {"--calibration": print_calibrations, "--drift": print_coverage}
-    for word in sys.argv[1:] or [""]:
-        asked.get(word, print_gains)()
+    (print_calibrations if sys.argv[1:] == ["--calibration"] else print_gains)()

@@ -17,8 +17,7 @@ from benchmarks.diagnosis import __main__ as command
 from benchmarks.diagnosis import ablation, fly, oracle, plan, records, score
 from benchmarks.diagnosis.oracle import NEVER, Oracle
 from benchmarks.diagnosis.plan import Spec, model_text
-from benchmarks.evaluation import instrument_and_motion
-from benchmarks.rivals import program, write_function
+from benchmarks.evaluation import instrument_and_motion, program, write_function
 from generated import folded
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.regressors import group_by_effect, linearise, make_point
