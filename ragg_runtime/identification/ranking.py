@@ -228,7 +228,7 @@ HELD = 0.95
 """Probability that the credible set holds together."""
 
 RIDGE = 1e-9
-"""Added to the inner products of orthonormal blocks: effects that coincide count once."""
+"""Added to the inner products of all orthonormal blocks but the first: effects that coincide count once."""
 
 
 @dataclass(frozen=True)
@@ -329,7 +329,7 @@ def _measure_jointly(Q: Array, y: Array, length: NDArray[np.intp], sets: NDArray
         members = np.flatnonzero((lengths == shape).all(axis=1))
         begins = start[sets[members]].T[:, :, None]
         at = np.concatenate([b + np.arange(k) for b, k in zip(begins, shape, strict=True)], axis=1)
-        inner = G[at[:, :, None], at[:, None]] + RIDGE * np.eye(at.shape[1])
+        inner = G[at[:, :, None], at[:, None]] + RIDGE * np.diag(np.arange(at.shape[1]) >= shape[0])
         found[members] = np.sum(d[at] * np.linalg.solve(inner, d[at][..., None])[..., 0], axis=1)
     return found
 
