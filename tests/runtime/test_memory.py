@@ -22,7 +22,7 @@ from ragg_runtime.model import model as load
 from ragg_runtime.model.memory import add_responses, first_memories, stop
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.effects import EffectValues
-from ragg_runtime.reference.gravity import G, Gradient, PointMass
+from ragg_runtime.reference.gravity import G, PointMass
 from ragg_runtime.reference.motion import Sinusoids
 from ragg_runtime.reference.scenario import scenario
 from tests.rate import RATE
@@ -149,8 +149,6 @@ def test_difference_keeps_full_precision(site: list[float]) -> None:
 
 
 def test_bad_sources_are_refused() -> None:
-    with pytest.raises(UserError, match="six components"):
-        Gradient(np.zeros(5)).gradient(T0)
     with pytest.raises(UserError, match="sits on"):
         PointMass(1.0, [0, 0, 0]).difference(T0, _column([0.1, 0, 0]))
 
