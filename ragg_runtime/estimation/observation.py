@@ -9,6 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage
 
 from generated.output_effects import imu_saturation, saturation
 from ragg_runtime.base.errors import UserError
@@ -51,6 +52,9 @@ def spread(found: Sequence[slice], most: int) -> list[slice]:
 
 
 Array = NDArray[np.float64]
+
+LONGEST_GAP = 1024
+"""Samples of a gap that are kept, four times as many as what is missing is interpolated from: noise is not followed over more."""
 
 
 def observe_flights(flights: Sequence[Flight], instrument: Instrument) -> list[Observation]:
@@ -113,6 +117,23 @@ def _find_usable(
         if name in flight.channels:
             usable &= ~imu_saturation.clipped(flight.channels[name], usable)
     return usable
+
+
+def shorten_gaps(observations: Sequence[Observation]) -> list[Observation]:
+    """Observations without the middle of their long gaps: there their times jump by as much as was not recorded."""
+    found = []
+    for o in observations:
+        r = o.record
+        near = ndimage.maximum_filter1d(r.valid, LONGEST_GAP + 1)
+        short = replace(
+            r,
+            time=r.time[near],
+            wide={n: x[near] for n, x in r.wide.items()},
+            valid=r.valid[near],
+            reading=None if r.reading is None else r.reading[near],
+        )
+        found.append(o if near.all() else replace(o, record=short, series=tuple(x[near] for x in o.series)))
+    return found
 
 
 @dataclass(frozen=True)

@@ -237,7 +237,7 @@ class Record:
         """
         wide, samples = dict(self.wide), len(self.time) + sum(self.halo)
         at = np.arange(samples, dtype=np.float64)
-        time = float(self.time[0]) + (at - self.halo[0]) / self.rate
+        time = self.time if self.whole is None else self.whole.time[self.first : self.first + samples]
         later = {q: (offset + drift * time) * self.rate for q, (offset, drift) in moves.items()}
         for quantity, by in later.items():
             names = [n for n in (quantity, *(f"{quantity}_{k}" for k in "xyz")) if n in wide]

@@ -324,7 +324,8 @@ def _propose_slips(s: Sampler) -> list[Hypothesis]:
     """
     n, f = len(s.flight), abs(s.disc.spin_frequency)
     few = int(np.clip(s.flight.duration * f / SLIP_TURNS, 4, SLIP_PARTS))
-    parts = list(pairwise(n * k // few for k in range(few + 1)))
+    there = np.flatnonzero(s.usable)
+    parts = list(pairwise([0, *there[[len(there) * k // few for k in range(1, few)]].tolist(), n]))
     apart = [[k for k in _lags(s, *part, beside=0) if abs(k) < n // 8] for part in parts]
     likely = dict.fromkeys((_MOTION, _FORCE, _RATES, _OUTPUT), apart)
     if f > 0.0 and not s.has_encoder:

@@ -12,6 +12,7 @@ from scipy.signal import lfilter
 from generated.output_effects import imu_saturation
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.observation import observe
+from ragg_runtime.identification.comparison import compare
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.result import Reason, heed_flags
 from ragg_runtime.instrument.units import EOTVOS
@@ -149,3 +150,13 @@ def test_a_flight_with_saturated_gyroscopes_is_diagnosed() -> None:
     assert "imu-saturation" in d.found
     with pytest.raises(UserError, match="must be positive"):
         s.simulate({"imu-saturation": {"a_max": -1.0}})
+
+
+def test_a_record_of_two_lines_and_a_long_turn_is_judged_by_what_it_has() -> None:
+    """With a gap as long as the record the noise floor came out half as large, and an adequate model was none."""
+    s = scenario(5, duration=600.0)
+    x = s.simulate({}).flight()
+    outputs = {n: np.where((x.time > 150.0) & (x.time < 450.0), np.nan, v) for n, v in x.outputs.items()}
+    whole, parts = (compare(load_packaged(), s.sheet, [y]) for y in (x, replace(x, outputs=outputs)))
+    assert parts.adequate, parts.grounds
+    assert parts.noise_floor == pytest.approx(whole.noise_floor, rel=0.1)
