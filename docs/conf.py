@@ -67,7 +67,7 @@ def _block(self: Any, node: Any) -> None:
 def _made(app: Sphinx, config: Any) -> None:
     """Write all that is generated: pages from the code, the notebook, figures, the reports of the demonstration."""
     from benchmarks.compensation import draw_transfer
-    from benchmarks.diagnosis.__main__ import committed_page
+    from benchmarks.diagnosis import score
     from derive import audit
     from derive.simplify.page import page as simplified
     from docs import made as build
@@ -83,7 +83,7 @@ def _made(app: Sphinx, config: Any) -> None:
         "errata.md": audit.page(),
         "simplified.md": simplified(),
         "experiments.md": write_page([repeat_multifrequency(), repeat_dynamic(), repeat_turbulence()]),
-        "benchmark.md": committed_page(),
+        "benchmark.md": score.page(),
         "commands.md": build.commands(),
         "model-toml.md": build.model_toml(),
     }
