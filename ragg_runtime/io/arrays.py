@@ -69,8 +69,8 @@ _DIMENSION = "This is a netCDF dimension but not a netCDF variable"
 def make_tables(tree: Tree, place: str = "") -> list[DataTable]:
     """The tables of a tree of arrays and of its branches, from the outermost on.
 
-    A branch with as many rows, and no name in common, is a part of the record around it, unless that has all of the motion: columns
-    besides it may have no units.
+    A branch with as many rows, and no name in common, is a part of the record around it, unless both have a clock, or that has all of the
+    motion: columns besides it may have no units.
     """
     arrays, branches = [], {}
     for name, item in tree.items():
@@ -88,7 +88,8 @@ def make_tables(tree: Tree, place: str = "") -> list[DataTable]:
     apart = []
     for t in (t for name, branch in branches.items() for t in make_tables(branch, f"{place}/{name}")):
         whole = {*SPECIFIC_FORCE, *ANGULAR_RATE} <= {*own.names} and "[" not in t.part
-        if len(t) != len(own) or {*own.names} & {*t.names} or whole:
+        clocks = [{"time", "t"} & {n.casefold() for n in x.names} for x in (own, t)]
+        if len(t) != len(own) or {*own.names} & {*t.names} or whole or all(clocks):
             apart.append(t)
             continue
         stem = t.part.removeprefix(place).strip("/")
@@ -376,11 +377,11 @@ def read_parquet(path: Path) -> list[DataTable]:
         schema = file.schema_arrow
         require_memory(path, 8.0 * file.metadata.num_rows * len(schema))
         table = file.read()
+        about = schema.metadata or {}
+        given = read_frame_units(json.loads(about.get(b"PANDAS_ATTRS", b"{}")))
+        labels = json.loads(about.get(b"pandas", b"{}")).get("index_columns", [])
     while any(map(pa.types.is_struct, table.schema.types)):  # the component x of a vector a is a column a.x
         table = table.flatten()
-    about = schema.metadata or {}
-    given = read_frame_units(_read_json(about.get(b"PANDAS_ATTRS", b"{}")))
-    labels = _read_json(about.get(b"pandas", b"{}")).get("index_columns", [])
     arrays, index = [], None
     for field, values in zip(table.schema, table.columns, strict=True):
         unnamed, joined = field.name.startswith("__index_level_"), field.name.replace(".", "_")
@@ -390,14 +391,6 @@ def read_parquet(path: Path) -> list[DataTable]:
         said = "1" if not said and pa.types.is_boolean(field.type) else said
         arrays.append((name, convert_arrow(values), {"units": said}))
     return [make_table(arrays, given, index=index)]
-
-
-def _read_json(text: bytes) -> dict[str, Any]:
-    try:
-        found = json.loads(text)
-    except (ValueError, RecursionError):
-        return {}
-    return found if isinstance(found, dict) else {}
 
 
 def convert_arrow(column: pa.ChunkedArray) -> NDArray[Any]:

@@ -85,7 +85,9 @@ def make_flight(
     doubled = [*_leave_out_doubled(si), *_leave_out_misplaced(si)]
     grid = make_grid(si.pop("time"), made.place)
     notes = [*made.notes, *doubled, *_leave_out_impossible(si, si_units), *grid.notes]
-    placed = {c: _place(v, grid) for c, v in si.items()}
+    placed = {c: np.full(len(grid.time), np.nan) for c in si}
+    for c, v in si.items():
+        placed[c][grid.index] = v
     _drop_empty(placed, notes, made.place)
     if need_output:  # once more: of the columns that hold anything
         _require_output(made, placed, accelerometers)
@@ -278,15 +280,6 @@ def _drop_empty(columns: dict[str, Array], notes: list[str], place: str) -> None
 
 
 # --- on the grid ---------------------------------------------------------------------------------------
-
-
-def _place(values: Array, grid: Grid) -> Array:
-    """Values on the whole grid, NaN where the file has no sample."""
-    if len(values) == len(grid.time):
-        return values
-    whole = np.full(len(grid.time), np.nan)
-    whole[grid.index] = values
-    return whole
 
 
 def _find_valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, notes: list[str]) -> Mask:

@@ -311,7 +311,7 @@ def _find_unit(c: DataColumn, name: str, questions: list[str], where: str) -> tu
     si = SI_UNITS.get(name) or (SI_UNITS.get(stem) if stem in DEMODULATED else None)
     if c.unit and is_unit(c.unit) and (si is None or units(9.8).fits(c.unit, si)):
         return _quoted(c.unit), ""
-    named = find_unit(c.name)
+    named = _take_unit(_fold(c.name))[1]
     if not c.unit and named and si is not None and units(9.8).fits(named, si):
         return named, "likely: from its name"
     said = f"the file has {c.unit!r}, a wrong unit for it" if c.unit else "the file gives none"
@@ -367,11 +367,6 @@ def _turn(roles: Iterable[Role], axes: dict[tuple[str, str], tuple[str, str]]) -
         elif (r.name, r.direction) in axes:
             axis, three = axes[r.name, r.direction]
             yield replace(r, name=f"{r.name}_{axis}", sure="guess", why=f"{three} as x, y, z?")
-
-
-def find_unit(column: str) -> str:
-    """The unit among the words of a name; ``""``: there is none."""
-    return _take_unit(_fold(column))[1]
 
 
 def _read_name(column: str) -> list[Role]:

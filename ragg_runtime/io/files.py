@@ -123,16 +123,11 @@ def read_tables(source: Any) -> list[DataTable]:
     """All tables of a file, by the ending of its name, or of a flight in memory."""
     try:
         tables = _read_file(source) if isinstance(source, Path) else tabulate(source)
-        return [join_parts(_read_texts(t)) for t in tables]
+        decimals = [t.decimal or find_decimal(c.values for c in t.columns if c.is_text) for t in tables]
+        return [join_parts(read_quantities(t, d)) for t, d in zip(tables, decimals, strict=True)]
     except MemoryError:
         what = "the file is damaged, or too large for the memory of this computer"
         raise UserError(what, where=source, remedy="copy it again, or split it") from None
-
-
-def _read_texts(t: DataTable) -> DataTable:
-    """A table whose columns of texts are numbers where all of their cells are."""
-    decimal = t.decimal or find_decimal(c.values for c in t.columns if c.is_text)
-    return replace(t, columns=tuple(read_quantities(c, decimal) for c in t.columns), decimal=decimal)
 
 
 def _read_file(path: Path) -> list[DataTable]:

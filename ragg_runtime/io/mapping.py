@@ -265,7 +265,7 @@ MOST_LINES = 20_000
 """Lines of a file, beyond which the column does not name lines: the largest surveys have some thousands."""
 
 _LOOKED_AT = 600  # cells that tell whether a column of texts is one of numbers
-_COMPONENT = re.compile(r"(?:(a|omega|omegadot|B)_[xyz]|Gamma_[xyz]{2})")
+_COMPONENT = re.compile(r"(?:(a|omega|omegadot|B|mass)_[xyz]|Gamma_[xyz]{2})")
 
 
 def make_recordings(
@@ -507,13 +507,16 @@ def name_line(value: object) -> str:
 # --- numbers and codes -------------------------------------------------------------------------------------------
 
 
-def read_quantities(c: DataColumn, decimal: str) -> DataColumn:
-    """A column of texts that are all numbers, perhaps with units, as numbers; names of lines (10 N) and instants are texts."""
-    first = next((t for t in c.values if t not in MISSING), "") if c.is_text else ""
-    if not is_quantity(first) or "line" in c.name.casefold() or are_packed(c.values):
-        return c
-    numbers, unit, spoiled = parse_quantities(c.values, decimal)
-    return c if spoiled.any() else replace(c, unit=unit or c.unit, values=numbers)
+def read_quantities(table: DataTable, decimal: str) -> DataTable:
+    """A table whose columns of texts that are all numbers, perhaps with units, are; names of lines (10 N) and instants stay texts."""
+    found = []
+    for c in table.columns:
+        first = next((t for t in c.values if t not in MISSING), "") if c.is_text else ""
+        if is_quantity(first) and "line" not in c.name.casefold() and not are_packed(c.values):
+            numbers, unit, spoiled = parse_quantities(c.values, decimal)
+            c = c if spoiled.any() else replace(c, unit=unit or c.unit, values=numbers)
+        found.append(c)
+    return replace(table, columns=tuple(found), decimal=decimal)
 
 
 def _read_numbers(c: DataColumn, table: DataTable, null: Null, remedy: str | None = None) -> DataColumn:

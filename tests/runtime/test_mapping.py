@@ -85,6 +85,22 @@ def test_units_signs_scales_and_axes(tmp_path: Path) -> None:
     assert found.notes[0].startswith("read by mapping.toml (SHA-256 ")
 
 
+def test_the_axes_turn_places_too() -> None:
+    x, places = made(), {f"mass_{k}": np.arange(300.0) + n for n, k in enumerate("xyz")}
+    head, tail = TEXT.split("[columns]")[0], TEXT.split("[axes]")[1]
+    columns = [(n, v) for n, v in ({**x.channels, **x.outputs, **places}).items()]
+    units = {
+        n: "m" if n in places else "V" if n == "G_out" else "m/s^2" if n[0] == "a" else "rad/s"
+        for n, _ in columns
+    }
+    lines = "".join(f'{n} = {{ column = "{n}", unit = "{u}" }}\n' for n, u in units.items())
+    found = read_flight(
+        {"T": x.time, **dict(columns)}, G0, mapping=parse(f"{head}[columns]\n{lines}[axes]{tail}")
+    )
+    assert [found.channels[f"mass_{k}"][0] for k in "xyz"] == [1.0, 0.0, -2.0]
+    assert np.array_equal(found.channels["a_z"], -x.channels["a_z"])
+
+
 @pytest.mark.parametrize(
     ("time", "head", "written", "start", "origin"),
     [
