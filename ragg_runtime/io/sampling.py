@@ -34,9 +34,6 @@ NO_GAPS = 0.05
 STEADY_FROM = 512
 """Instants from which a line through them is a better clock than the mean step of a record without gaps."""
 
-ROUNDED = tuple(10.0**-k for k in range(10))
-"""Units, s, to which stamps may have been rounded."""
-
 BESIDE = 16
 """Stamps on either side of a place that tell whether a clock was set there, and not one stamp delayed."""
 
@@ -140,7 +137,15 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
             remedy = _BY_COUNT.format(rate=1 / step)
         found = f"{len(time)} samples in {span:.6g} s, with steps of {step:.6g} s"
         raise UserError(what, where=where, found=found, remedy=remedy)
-    rounded = unround(time, index)
+    if np.sum(jumps > 1) >= BESIDE and (coarse := unround(time, np.arange(len(time)), 1.0)) is not None:
+        raise UserError(
+            "the time stamps are too coarse for the sampling rate",
+            where=where,
+            found=f"gaps as regular as if stamps of {1 / coarse[2]:.6g} Hz were rounded to {coarse[0]:g} s",
+            expected="stamps to half a step, or all rows",
+            remedy=_BY_COUNT.format(rate=1 / coarse[2]),
+        )
+    rounded = unround(time, index, 1.0 if size == len(time) else 0.5)
     if rounded is None:
         whole = time if size == len(time) else np.interp(np.arange(size), index, time)
         odd = _describe_jitter(time, jumps, off, step)
@@ -218,7 +223,9 @@ def _track_clock(time: Array, step: float, exact: bool) -> tuple[NDArray[np.int6
 # --- rounded stamps ------------------------------------------------------------------------------------
 
 
-def unround(time: Array, index: NDArray[np.int64]) -> tuple[float, float, float] | None:
+def unround(
+    time: Array, index: NDArray[np.int64], coarsest: float = 0.5
+) -> tuple[float, float, float] | None:
     """The even clock, of which some stamps are roundings.
 
     Parameters
@@ -227,6 +234,8 @@ def unround(time: Array, index: NDArray[np.int64]) -> tuple[float, float, float]
         Stamps, s.
     index : (n,) array
         Their places on the grid, from 0.
+    coarsest
+        Steps that the unit may have.
 
     Returns
     -------
@@ -245,19 +254,22 @@ def unround(time: Array, index: NDArray[np.int64]) -> tuple[float, float, float]
     slack = 1e-6 * unit + 4 * float(np.spacing(np.max(np.abs(time))))
     off = time - first - step * index
     most = np.max(np.abs(off))
-    if most <= slack or unit > step / 2 or most > unit + slack or np.ptp(off) > unit + 2 * slack:
+    if most <= slack or unit > coarsest * step or most > unit + slack or np.ptp(off) > unit + 2 * slack:
         return None
     return unit, first, step
 
 
 def _find_unit(time: Array) -> float | None:
-    """The largest decimal unit, s, of which all stamps are multiples, or that of single precision; ``None``: there is none."""
-    most = float(np.max(np.abs(time)))
-    for unit in ROUNDED:
-        slack = max(1e-6, 4 * float(np.spacing(most)) / unit)
-        if slack < 0.1 and np.all(np.abs(time / unit - np.rint(time / unit)) < slack):
-            return unit
-    return _find_single(time)
+    """The unit, s, of which all stamps are multiples from the first on: by it their steps differ; ``None``: there is none."""
+    steps, noise = np.diff(time), 8 * float(np.spacing(np.max(np.abs(time))))
+    apart = np.diff(np.unique(steps))
+    if not np.any(apart > noise):
+        return None
+    unit = float(np.min(apart[apart > noise]))
+    places = np.cumsum(np.rint(steps / unit))
+    unit = float(time[-1] - time[0]) / float(places[-1])
+    slack = max(1e-6 * unit, noise)
+    return unit if slack < 0.1 * unit and np.all(np.abs(time[1:] - time[0] - places * unit) < slack) else None
 
 
 def _find_single(time: Array) -> float | None:

@@ -216,13 +216,23 @@ def test_numbers_that_overflow_are_said() -> None:
     assert _overflown(Flight(TIME, {"a_x": fast}, {}, valid=valid)) == []
 
 
-@pytest.mark.parametrize(("rate", "start"), [(16, 12.0625), (30, 0.0), (128, 1.7e9)])
-def test_rounded_stamps_are_put_on_their_grid(rate: float, start: float) -> None:
+@pytest.mark.parametrize(
+    ("rate", "start", "unit"),
+    [(16, 12.0625, 0.001), (30, 0.0, 0.001), (128, 1.7e9, 0.001), (16, 0.0, 0.02), (16, 0.0, 1 / 60)],
+)
+def test_rounded_stamps_are_put_on_their_grid(rate: float, start: float, unit: float) -> None:
     true = start + np.arange(N) / rate
-    for stamps in (np.round(true, 3), np.floor(np.round(1000 * true, 6)) / 1000):
+    for stamps in (np.round(true / unit) * unit, np.floor(np.round(true / unit, 6)) * unit):
         g = make_grid(stamps, None)
         assert np.max(np.abs(g.time - true)) < 1e-6
-        assert "rounded to 0.001 s" in g.notes[0]
+        assert f"rounded to {unit:g} s" in g.notes[0]
+
+
+def test_stamps_rounded_to_most_of_a_step_are_no_gaps() -> None:
+    with pytest.raises(UserError, match=r"too coarse[^$]*16 Hz were rounded to 0\.05 s"):
+        make_grid(np.round(TIME / 0.05) * 0.05, None)
+    lost = np.random.default_rng(4).random(N) > 0.1
+    assert len(make_grid(TIME[lost], None).index) == np.sum(lost)
 
 
 def test_stamps_that_are_too_coarse_are_no_doubled_rows() -> None:
