@@ -326,7 +326,7 @@ def reach(effect: Effect, q: EffectParameter, share: float) -> float:
     )
 
 
-# what is remembered is formed of a record by the runtime: tests/runtime/test_memory.py
+# what is remembered is formed of a record by the runtime: tests/runtime/test_reference.py
 KNOWN = [(e, q) for e, q in FITTED if (e.id in CATALOGUE or e.id in DIRECT) and e.memory is None]
 by_known_parameter = pytest.mark.parametrize(
     ("effect", "parameter"), [pytest.param(e, q, id=f"{e.id}.{q.name}") for e, q in KNOWN]

@@ -17,8 +17,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 import xarray
-from flights_of_a_survey import in_process
 from scipy.io import netcdf_file, savemat
+from workers import in_process
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError, printable

@@ -43,34 +43,28 @@ def flown(s: Scenario, sinusoids: Sequence[Sinusoid], effects: EffectValues) -> 
     the noise that the fit of both flights estimates, has beyond the model's parameters and the rival's.
     """
     t = np.arange(int(s.duration * s.rate)) / s.rate
-    parts = {}
-    for group in ("a", "omega"):
-        for k, signal in zip("xyz", getattr(s.motion, group), strict=True):
-            own = [x for x in sinusoids if x[0] == f"{group}_{k}"]
-            parts[f"{group}_{k}"] = Sinusoids(
-                float(np.mean(signal.value(t))), [x[2] for x in own], [x[1] for x in own], [x[3] for x in own]
-            )
-    x, y, z, wx, wy, wz = (parts[n] for n in next_motion.AXES)
-    other = replace(s, motion=MotionSignals((x, y, z), (wx, wy, wz)), seed=s.seed + 100_000)
-    runs = [(w.simulate(effects), w.simulate()) for w in (s, other)]
+    parts = []
+    for name, signal in zip(next_motion.AXES, (*s.motion.a, *s.motion.omega), strict=True):
+        own = [x for x in sinusoids if x[0] == name]
+        f, amplitude, phase = ([x[k] for x in own] for k in (1, 2, 3))
+        parts.append(Sinusoids(float(np.mean(signal.value(t))), amplitude, f, phase))
+    motion = MotionSignals(tuple(parts[:3]), tuple(parts[3:]))
+    runs = [
+        (w.simulate(effects), w.simulate()) for w in (s, replace(s, motion=motion, seed=s.seed + 100_000))
+    ]
     both = fitted(s, *(a.flight() for a, _ in runs))
     clean: list[Observation] = []
-    for k, (with_it, without) in enumerate(runs):
-        a, b = (
-            observe_flights([replace(q.flight(), outputs=dict(q.outputs_noise_free))], s.sheet)[0]
-            for q in (with_it, without)
-        )
+    for k, pair in enumerate(runs):
+        quiet = [replace(q.flight(), outputs=dict(q.outputs_noise_free)) for q in pair]
+        a, b = observe_flights(quiet, s.sheet)
         rest = compute_residual(both.model, b, both.calibration.p)
         clean.append(replace(a, series=tuple(np.atleast_2d(a.data - rest)), flight=k))
     signal = prepare_evidence(both.model, both.instrument, clean, both.calibration)
-    n = both.n_base
-    columns = group_by_effect(both.candidates)
+    n, columns = both.n_base, group_by_effect(both.candidates)
 
     def shown(rival: str) -> float:
-        picked = [*range(n), *(n + k for k, _ in columns[rival]), -1]
-        rows = signal.data[:, picked]
-        prior = np.eye(n, rows.shape[1])
-        return float(abs(np.linalg.qr(np.vstack([rows, prior]), mode="r")[-1, -1]))
+        rows = signal.data[:, [*range(n), *(n + k for k, _ in columns[rival]), -1]]
+        return float(abs(np.linalg.qr(np.vstack([rows, np.eye(n, rows.shape[1])]), mode="r")[-1, -1]))
 
     return shown
 
@@ -120,14 +114,14 @@ def test_what_the_flight_does_not_determine_is_not_promised(
 def test_the_motion_keeps_to_its_limits_and_can_be_flown(tmp_path: Path) -> None:
     """Where nothing is left to separate, it excites everything."""
     m = api.new(tmp_path / "m")
-    x = simulate_flight(m.instrument, [], seed=8, duration=120.0)
+    x = simulate_flight(m.instrument, [], seed=8, duration=120.0, rate=RATE)
     limits = api.parse_limits(m, ["a=30mg", "a_z=3mg", "jerk=1m/s^3", "alpha=1deg/s^2"])
-    n = next_flight(m, [x], limits, duration=60.0, band=(0.1, 2.0))
+    n = next_flight(m, [x], limits, duration=60.0, band=(0.1, 1.6))
     assert n.promise == {"separations": []}
     assert {axis for axis, *_ in n.sinusoids} == set(next_motion.AXES)
     write_flight(n.motion(), tmp_path / "motion.csv")
     motion = simulate_flight(m.instrument, [], motion=tmp_path / "motion.csv")
-    assert len(motion) == 60 * 16
+    assert len(motion) == len(n.motion())
     for axis in "xyz":
         a = n.motion().channels[f"a_{axis}"] - n.mean[f"a_{axis}"]
         most = 9.81 * (0.003 if axis == "z" else 0.03)
@@ -148,31 +142,26 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     """Through the commands, and in half the time that all sinusoids together take."""
     m = api.new(tmp_path / "m")
     write_flight(simulate_flight(m.instrument, [], seed=3, duration=150.0, rate=RATE), tmp_path / "x.parquet")
-    names = ("m", "x.parquet", "motion.csv", "y.parquet", "sheet.md", "plan.json", "c.json")
-    files = {n: str(tmp_path / n) for n in names}
+    sheet, plan_file, found_file = (tmp_path / n for n in ("sheet.md", "plan.json", "c.json"))
+    flown, motion = [tmp_path / "x.parquet", tmp_path / "y.parquet"], tmp_path / "motion.csv"
     words = ["--for", "calibration", "--criterion", "D", "--duration", 300]
-    told = ["--run-sheet", files["sheet.md"], "--json", files["plan.json"]]
-    ragg("next-motion", files["m"], files["x.parquet"], "-o", files["motion.csv"], *words, *told)
-    plan = json.loads((tmp_path / "plan.json").read_text())
+    told = ["--run-sheet", sheet, "--json", plan_file]
+    ragg("next-motion", tmp_path / "m", flown[0], "-o", motion, *words, *told)
+    plan = json.loads(plan_file.read_text())
     assert plan["criterion"] == "D"
     assert plan["channels"]["planned"]["inline_Eo"] < 0.5 * plan["channels"]["now"]["inline_Eo"]
-    assert f"| {plan['sinusoids'][0]['axis']} |" in (tmp_path / "sheet.md").read_text()
-    write_flight(
-        simulate_flight(m.instrument, [], seed=3, motion=files["motion.csv"]), tmp_path / "y.parquet"
-    )
-    flown = (files["x.parquet"], files["y.parquet"])
-    ragg("calibrate", files["m"], *flown, "--plan", files["plan.json"], "--json", files["c.json"])
-    found = json.loads((tmp_path / "c.json").read_text())
-    certificate = found["certificate"]
-    ratios = [q["std_reached"] / q["std_planned"] for q in certificate]
+    assert f"| {plan['sinusoids'][0]['axis']} |" in sheet.read_text()
+    write_flight(simulate_flight(m.instrument, [], seed=3, motion=motion), flown[1])
+    ragg("calibrate", tmp_path / "m", *flown, "--plan", plan_file, "--json", found_file)
+    found = json.loads(found_file.read_text())
+    ratios = [q["std_reached"] / q["std_planned"] for q in found["certificate"]]
     assert np.allclose(ratios, 1.0, atol=0.05)
-    assert all(q["reached"] for q in certificate)
     combinations, channels = found["certified"]["combinations"], found["certified"]["channels"]
+    assert all(q["reached"] for q in (*found["certificate"], *combinations))
     assert min(q["std_planned"] / q["std_before"] for q in combinations) < 0.3
-    assert all(q["reached"] for q in combinations)
     assert all(x["reached"] == pytest.approx(x["planned"], rel=0.1) for x in channels.values())
-    assert all(f"| {q['name']} |" in (tmp_path / "sheet.md").read_text() for q in combinations)
-    f = fit(m.model, m.instrument, observe_flights(api.read_flights(m, [files["x.parquet"]]), m.instrument))
+    assert all(f"| {q['name']} |" in sheet.read_text() for q in combinations)
+    f = fit(m.model, m.instrument, observe_flights(api.read_flights(m, flown[:1]), m.instrument))
     wanted, tones = ChannelVariance.of(f), next_motion.list_tones(0.25, next_motion.LIMITS, (0.0, 3.2))
     criteria = wanted.weigh_variance, wanted.weigh_volume
     A, D = (wanted.known.fly(next_motion.find_motion(wanted.known, c, tones, 600.0), 600.0) for c in criteria)
@@ -204,10 +193,8 @@ def test_a_body_that_is_moved_is_weighed_as_planned(tmp_path: Path) -> None:
     run = ["near-sphere:M=500,x=1,y=0,z=0"]
     y = simulate_flight(m.instrument, run, seed=3, motion=tmp_path / "motion.csv")
     assert y.channels["mass_x"] == pytest.approx(0.3 * np.sin(0.1 * np.pi * y.time), abs=1e-3)
-    first, both = (
-        fit(m.model, m.instrument, observe_flights(some, m.instrument), candidates=False)
-        for some in ([x], [x, y])
-    )
+    observed = (observe_flights(some, m.instrument) for some in ([x], [x, y]))
+    first, both = (fit(m.model, m.instrument, o, candidates=False) for o in observed)
     (k,) = (k for k, q in enumerate(first.calibration.columns) if q.name == "near-sphere.M")
     planned = ChannelVariance.of(first).promise(n.sinusoids, 300.0)["parameters"][k]
     q, c = both.calibration.columns[k], both.calibration

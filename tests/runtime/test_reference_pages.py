@@ -58,14 +58,11 @@ def test_the_page_of_model_toml_has_every_key_that_is_read_and_no_other(title: s
     assert listed == known
 
 
-def test_the_page_of_json_has_every_command_that_writes_any() -> None:
+def test_the_page_of_json_has_every_command_that_writes_any_and_every_key_a_meaning() -> None:
     shown = {line.split()[0] for line in made.LINES} | {"compare", "diagnose", "add"}
     context = click.Context(cli)
     commands = {name: cli.get_command(context, name) for name in COMMANDS}
     assert {n for n, c in commands.items() if c and any(p.name == "json_file" for p in c.params)} == shown
-
-
-def test_a_key_without_a_meaning_is_an_error() -> None:
     with pytest.raises(KeyError, match="odd of compare"):
         made.meaning("compare", "error.odd", made.read_meanings())
 
@@ -95,14 +92,13 @@ SAMPLES = 2880
 """Three minutes of the shipped flight are enough for all that README shows."""
 
 
-def blocks(heading: str) -> list[str]:
-    """The indented blocks of a section of README."""
+def block(heading: str) -> str:
+    """The indented block of a section of README."""
     section = README.split(f"\n## {heading}\n", 1)[1].split("\n## ", 1)[0]
-    found = re.findall(r"(?:^    .*\n(?:\n(?=    ))?)+", section, flags=re.MULTILINE)
-    return [re.sub(r"^    ", "", b, flags=re.MULTILINE) for b in found]
+    return "".join(f"{x}\n" for x in re.findall(r"^    (.*)$|^$", section, flags=re.MULTILINE)).strip()
 
 
-(SHELL,), (PYTHON,) = blocks("Step by step"), blocks("From Python")
+SHELL, PYTHON = block("Step by step"), block("From Python")
 """The second is carried out in test_display.py."""
 
 
@@ -132,7 +128,7 @@ def said(clone: Path) -> dict[str, str]:
     return found
 
 
-def test_the_commands_work_as_typed(said: dict[str, str], clone: Path) -> None:
+def test_the_commands_work_as_typed_and_print_the_next_one(said: dict[str, str], clone: Path) -> None:
     assert "NOT adequate" in said["compare"]
     assert "thermal-scale" in said["diagnose"]
     assert "the model is now adequate" in said["add"]
@@ -140,9 +136,6 @@ def test_the_commands_work_as_typed(said: dict[str, str], clone: Path) -> None:
     for name in re.findall(r"(?:--report|-o) (\S+)", SHELL):
         assert (clone / name).stat().st_size > 1000, name
     assert (clone / "my-model-c" / "Makefile").exists()
-
-
-def test_each_command_prints_the_next_one_with_its_real_paths(said: dict[str, str]) -> None:
     flight = "examples/demo-flight.parquet"
     assert f"next: ragg diagnose my-model {flight}" in said["compare"]
     assert f"next: ragg add my-model thermal-scale {flight}" in said["diagnose"]

@@ -1,20 +1,24 @@
-"""Generic terms: what they are made of, that noise does not raise them, and that they name what is really there."""
+"""Generic terms, constant and varying: noise does not raise them, and they name what is really there."""
 
 from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy import stats
+from scipy import signal, stats
 
 from derive.expression import from_expression
 from ragg_runtime.estimation import fitted, observation, whitening
+from ragg_runtime.estimation.whitening import Piece
 from ragg_runtime.identification import comparison, dictionary, formula, omnibus
 from ragg_runtime.identification.dictionary import Dictionary, Term
 from ragg_runtime.identification.omnibus import Scores
+from ragg_runtime.identification.time_varying import BlockScores
 from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.io import Flight
 from ragg_runtime.model import derive
@@ -27,84 +31,46 @@ from tests.runtime.diagnosed import diagnosed
 
 Array = NDArray[np.float64]
 
-FINE, SPIN = 50.0, 0.25
+TIME = np.arange(6000) / 50.0
 
 
 @pytest.fixture(scope="module")
-def smooth() -> tuple[Record, dict[str, Callable[[Array], Array]]]:
-    """A record of smooth channels, and the same as functions of time."""
-    exact: dict[str, Callable[[Array], Array]] = {
-        "a_x": lambda t: 0.3 * np.sin(1.1 * t) + 0.2 * np.cos(0.4 * t),
-        "a_y": lambda t: 0.4 * np.cos(0.9 * t + 0.3),
-        "a_z": lambda t: 9.0 + np.sin(0.7 * t),
-        "temperature": lambda t: 293.0 + 0.01 * t,
+def smooth() -> Record:
+    """A record of smooth channels."""
+    wide = {
+        "a_x": 0.3 * np.sin(1.1 * TIME) + 0.2 * np.cos(0.4 * TIME),
+        "a_y": 0.4 * np.cos(0.9 * TIME + 0.3),
+        "a_z": 9.0 + np.sin(0.7 * TIME),
+        "temperature": 293.0 + 0.01 * TIME,
     }
-    time = np.arange(6000) / FINE
-    valid = np.ones(len(time), dtype=bool)
-    return Record(time, {n: x(time) for n, x in exact.items()}, FINE, valid, SPIN), exact
+    return Record(TIME, wide, 50.0, np.ones(len(TIME), dtype=bool), 0.25)
 
 
-def _force(exact: dict[str, Callable[[Array], Array]], axis: str) -> Callable[[Array], Array]:
-    """Along the input or output axis of the first accelerometer, of its own axes e_t and e_r."""
-
-    def f(t: Array) -> Array:
-        phi = 2 * np.pi * SPIN * t
-        across, along = (-np.sin(phi), np.cos(phi)), (np.cos(phi), np.sin(phi))
-        u = across if axis == "f_i" else along
-        return np.asarray(exact["a_x"](t) * u[0] + exact["a_y"](t) * u[1])
-
-    return f
-
-
-@pytest.mark.parametrize("axis", ["f_i", "f_o"])
-def test_turning_forces_and_their_derivatives(axis, smooth) -> None:
-    r, exact = smooth
-    f, h, t = _force(exact, axis), 1e-4, r.time
+@pytest.mark.parametrize(("axis", "turn"), [("f_i", 0.25), ("f_o", 0.0)])
+def test_turning_forces_and_their_derivatives(axis: str, turn: float, smooth: Record) -> None:
+    """Of the first accelerometer; those of the others are these up to sign and exchange."""
+    phi = 2 * np.pi * (0.25 * TIME + turn)
+    f = smooth.wide["a_x"] * np.cos(phi) + smooth.wide["a_y"] * np.sin(phi)
+    first = np.gradient(f, TIME, edge_order=2)
     inner = slice(50, -50)
-    np.testing.assert_allclose(dictionary.make_series(axis, r), f(t), atol=1e-12)
-    first = (f(t + h) - f(t - h)) / (2 * h)
-    second = (f(t + h) - 2 * f(t) + f(t - h)) / h**2
-    np.testing.assert_allclose(dictionary.make_series(f"d_{axis}", r)[inner], first[inner], atol=1e-5)
-    np.testing.assert_allclose(dictionary.make_series(f"d2_{axis}", r)[inner], second[inner], atol=1e-4)
-    np.testing.assert_allclose(dictionary.make_series(f"abs({axis})", r), np.abs(f(t)), atol=1e-12)
-    clear = np.abs(f(t)) > 1e-9
-    np.testing.assert_array_equal(dictionary.make_series(f"sign({axis})", r)[clear], np.sign(f(t))[clear])
-
-
-def test_forces_of_the_other_accelerometers_are_these_up_to_sign_and_exchange(smooth) -> None:
-    """A2 is half a turn on, A3 a quarter, A4 three quarters: no further terms are needed for them."""
-    r, _ = smooth
-    f = {n: dictionary.make_series(n, r) for n in ("f_i", "f_o")}
-    for turns, force, expected in (
-        (0.50, "f_i", -f["f_i"]),
-        (0.25, "f_i", -f["f_o"]),
-        (0.25, "f_o", f["f_i"]),
-        (0.75, "f_i", f["f_o"]),
-        (0.75, "f_o", -f["f_i"]),
+    for name, expected, most in (
+        (axis, f, 1e-12),
+        (f"d_{axis}", first, 1e-3),
+        (f"d2_{axis}", np.gradient(first, TIME, edge_order=2), 3e-3),
+        (f"abs({axis})", np.abs(f), 1e-12),
     ):
-        turned = dataclasses.replace(r, wide={**r.wide, "spin_angle": r.phi + 2 * np.pi * turns})
-        np.testing.assert_allclose(dictionary.make_series(force, turned), expected, atol=1e-12)
+        found = dictionary.make_series(name, smooth)
+        np.testing.assert_allclose(found[inner], expected[inner], atol=most)
+    turned = dataclasses.replace(smooth, wide={**smooth.wide, "spin_angle": smooth.phi + np.pi / 2})
+    other, sign = ("f_o", -1.0) if axis == "f_i" else ("f_i", 1.0)
+    expected = sign * dictionary.make_series(other, smooth)
+    np.testing.assert_allclose(dictionary.make_series(axis, turned), expected, atol=1e-12)
 
 
-def test_relaxations_are_those_of_the_differential_equation_wherever_they_are_taken_up(smooth) -> None:
-    r, _ = smooth
-    x = r.wide["a_z"] - r.wide["a_z"][0]
-    # y' = (x - y)/T for sin(w t): (sin(wt) - wT cos(wt) + wT exp(-t/T))/(1 + w^2 T^2)
-    w, T, t = 0.7, 5.0, r.time
-    expected = (np.sin(w * t) - w * T * np.cos(w * t) + w * T * np.exp(-t / T)) / (1 + (w * T) ** 2)
-    np.testing.assert_allclose(x, np.sin(w * t), atol=1e-12)
-    name = "slow(a_z, 5 s)"
-    whole = dictionary.relax(name, r, slice(0, 6000))
-    np.testing.assert_allclose(whole, expected, atol=3e-3)  # of a signal held over a sample
-    for rows in (slice(0, 1500), slice(400, 1900), slice(4500, 6000), slice(5900, 6000)):
-        np.testing.assert_allclose(dictionary.relax(name, r, rows), whole[rows], atol=1e-8)
-
-
-def test_what_a_record_lacks_makes_no_term(smooth) -> None:
-    r, _ = smooth
-    all_terms = {t.product for t in Dictionary(r).terms}
+def test_what_a_record_lacks_makes_no_term(smooth: Record) -> None:
+    all_terms = {t.product for t in Dictionary(smooth).terms}
     assert {"f_i*f_i*f_i*f_i", "f_i*temperature*temperature", "slow(f_o, 1 s)"} <= all_terms
-    bare = dataclasses.replace(r, wide={n: x for n, x in r.wide.items() if n != "a_x"})
+    bare = dataclasses.replace(smooth, wide={n: x for n, x in smooth.wide.items() if n != "a_x"})
     names = {c for t in Dictionary(bare).terms for c in t.channels}
     assert not any("f_i" in n or "f_o" in n or "a_x" in n for n in names)
     assert "abs(a_z)" in names
@@ -113,7 +79,7 @@ def test_what_a_record_lacks_makes_no_term(smooth) -> None:
 @pytest.fixture(scope="module")
 def scored() -> tuple[Scores, Array, Array]:
     """An effect-free flight: its scores, its whitened terms (float32) and the basis of what is projected out."""
-    s = scenario(71, duration=300.0)
+    s = scenario(71, duration=200.0, rate=RATE)
     f = fitted.fit(load.load_packaged(), s.sheet, [observation.observe(s.simulate({}).flight(), s.sheet)])
     projector = whitening.make_projector(f.r_factors[0], f.n_base, ())
     scores = Scores(f.prepared[0], projector)
@@ -132,12 +98,8 @@ def test_noise_raises_no_term(scored: tuple[Scores, Array, Array]) -> None:
     good = left > 1e-6 * scores.norm2
     projected = noise - Q.astype(np.float32) @ (Q.astype(np.float32).T @ noise)
     z = (X[good] @ projected) / np.sqrt(left[good])[:, None]
-    further = np.array(
-        [
-            len(t.channels) > 3 or "f_" in t.product or "slow" in t.product
-            for t in np.array(scores.dictionary.terms, dtype=object)[good]
-        ]
-    )
+    products = [t for t, kept in zip(scores.dictionary.terms, good, strict=True) if kept]
+    further = np.array([len(t.channels) > 3 or "f_" in t.product or "slow" in t.product for t in products])
     assert np.sum(further) > 150
     for some in (z[further], z[~further]):
         spread = np.std(some, axis=1)  # of one term over the draws
@@ -175,14 +137,9 @@ def test_a_product_with_a_force_at_a_harmonic_is_one_formula() -> None:
 
 
 def _crept(f: Array, t: Array, constant: float) -> Array:
-    """Creep: y' = (f - y)/T by the trapezoidal rule, a sample at a time."""
-    h = float(t[1] - t[0])
-    y = np.zeros(len(f))
-    for n in range(1, len(f)):
-        y[n] = ((1 - h / (2 * constant)) * y[n - 1] + h / (2 * constant) * (f[n] + f[n - 1])) / (
-            1 + h / (2 * constant)
-        )
-    return y
+    """Creep: y' = (f - y)/T by the trapezoidal rule."""
+    c = float(t[1] - t[0]) / (2 * constant)
+    return np.asarray(signal.lfilter([c, c], [1 + c, c - 1], f))
 
 
 def test_what_a_transducer_may_do_beyond_the_catalogue_is_unexplained_and_named() -> None:
@@ -195,22 +152,11 @@ def test_what_a_transducer_may_do_beyond_the_catalogue_is_unexplained_and_named(
     assert term.product.startswith("slow(a_z, 20 s)")
 
 
-def test_a_bent_converter_of_the_output_is_its_curve() -> None:
-    s = scenario(72, duration=250.0, rate=RATE)
-    run = s.simulate({})
-    flight, G = run.flight(), run.G_out
-    noise = float(np.std(run.G_out - run.G_out_noise_free))
-    term = 40.0 * noise / np.sqrt(len(G)) * G**3 / np.std(G**3)  # far smaller than what it is made of
-    d = diagnosed(s, dataclasses.replace(flight, outputs={"G_out": G + term}))
-    assert d.found == ("output-curve",), (d.verdict, d.terms())
-    assert d.verdict == "missing-effect"
-
-
 def test_the_line_that_is_offered_takes_what_is_left_away() -> None:
-    """As a user would: the line into model.toml, derive, calibrate. The search needs half of the samples."""
-    s, fine = (scenario(72, duration=600.0, rate=rate) for rate in (RATE, 2 * RATE))
-    coarse, flight = (_transducer(x.simulate({}), x, lambda w: 1e-7 * w["f_i"] ** 4) for x in (s, fine))
-    d = diagnosed(s, coarse)
+    """As a user would: the line into model.toml, derive, calibrate."""
+    s = scenario(72, duration=400.0, rate=RATE)
+    flight = _transducer(s.simulate({}), s, lambda w: 1.3e-7 * w["f_i"] ** 4)
+    d = diagnosed(s, flight)
     line = d.expression()
     assert line is not None
     assert 'add = "K_x*f_i**4"' in line
@@ -220,7 +166,7 @@ def test_the_line_that_is_offered_takes_what_is_left_away() -> None:
         "my-effect",
         expression={"stage": "transducer", "add": "K_x*f_i**4", "params": {"K_x": {"unit": unit}}},
     )
-    sheet = dataclasses.replace(fine.sheet, effects=(mine,))
+    sheet = dataclasses.replace(s.sheet, effects=(mine,))
     after = comparison.compare(derive.load_model(sheet), sheet, [flight])
     assert not d.remainder.log_p > -20
     assert after.remainder.log_p > np.log(0.05)
@@ -262,3 +208,75 @@ def test_every_term_is_offered_as_an_expression_or_with_the_column_that_it_lacks
     assert set(e.channels) == {n.split()[0] for n in needs} | {
         c for c in ("temperature", "roll") if c in text
     }
+
+
+# --- whose coefficient varies ---
+
+SAMPLES, TERMS = 9600, 40
+LONG = np.arange(SAMPLES) / 16.0
+
+
+def _piece(sample: NDArray[np.intp]) -> Piece:
+    return cast(Piece, SimpleNamespace(sample=sample))
+
+
+def _scores(y: Array, X: Array, cuts: tuple[int, ...] = ()) -> BlockScores:
+    """Over segments that end at ``cuts``, one after the other."""
+    total = BlockScores(len(X), LONG)
+    for rows in np.split(np.arange(SAMPLES), list(cuts)):
+        total.level(_piece(rows), y[rows])
+        half = len(X) // 2
+        for at in (slice(0, half), slice(half, len(X) + 7)):  # more terms than are asked about
+            columns = X[at, rows] if at.start == 0 else np.concatenate([X[half:, rows], X[:7, rows]])
+            total.add(_piece(rows), y[rows], at, columns)
+    return total
+
+
+def _columns(rng: np.random.Generator) -> Array:
+    """Slow and fast columns, of power that is not the same throughout."""
+    k = np.arange(1, TERMS + 1)[:, None]
+    swell = 1.0 + 0.8 * np.sin(2 * np.pi * LONG / 400.0)
+    return np.asarray(np.sin(0.3 * k * LONG + rng.uniform(0, 6, (TERMS, 1))) * swell)
+
+
+def test_noise_raises_none_and_segments_leave_no_trace() -> None:
+    rng = np.random.default_rng(3)
+    X = _columns(rng)
+    everything = np.ones(TERMS, dtype=bool)
+    found = []
+    for n in range(120):
+        loud = 1.0 + 0.3 * np.sin(2 * np.pi * LONG / 600.0) * (n % 2)  # every other not quite stationary
+        y = rng.standard_normal(SAMPLES) * loud
+        best = _scores(y, X).best(everything)
+        assert best is not None
+        found.append(best.log_p)
+        if n == 0:
+            parts = _scores(y, X, (1000, 1003, 5000)).best(everything)
+            assert parts is not None
+            assert (parts.place, parts.how) == (best.place, best.how)
+            assert parts.chi2 == pytest.approx(best.chi2, rel=1e-5)
+    for level in (0.05, 0.2):
+        assert np.sum(np.array(found) < np.log(level)) <= stats.binom.ppf(0.999, len(found), level)
+
+
+@pytest.mark.parametrize(
+    ("shape", "said"),
+    [
+        (np.where(np.abs(LONG - 250.0) < 20.0, 1.0, 0.0), "from"),
+        (np.where(LONG > 300.0, 1.0, -1.0), "since"),
+        (np.cos(2 * np.pi * LONG / 40.0 + 1.0), "with a period of 40 s"),
+        (np.random.default_rng(1).standard_normal(24).repeat(SAMPLES // 24), "from block to block"),
+    ],
+)
+def test_each_way_of_varying_is_seen_and_said(shape: Array, said: str) -> None:
+    rng = np.random.default_rng(4)
+    X = _columns(rng)
+    change = shape * X[11]
+    change *= 11.0 / np.linalg.norm(change)
+    best = _scores(rng.standard_normal(SAMPLES) + change, X).best(np.ones(TERMS, dtype=bool))
+    assert best is not None
+    assert best.log_p < np.log(1e-3)
+    assert best.place == 11
+    assert said in best.how
+    rms = float(np.sqrt(np.mean(shape**2))) * 11.0 / np.linalg.norm(shape * X[11])
+    assert best.coefficient == pytest.approx(rms, rel=0.35)
