@@ -9,7 +9,7 @@ against groups of samples, with their own fourth moment, so that heavy tails are
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -17,9 +17,8 @@ from numpy.typing import NDArray
 from scipy import special
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.estimation.residual import Disturbance
 from ragg_runtime.estimation.scores import log_sf
-from ragg_runtime.estimation.spectrum import Spectrum
+from ragg_runtime.estimation.spectrum import MOST_LINES, Disturbance, Spectrum
 from ragg_runtime.io.record import (
     ANGULAR_ACCELERATION,
     ANGULAR_RATE,
@@ -235,6 +234,18 @@ def _partition_intervals(edges: Array, count: Array, power: Array, fourth: float
         ends.append(int(last[ends[-1]]))
     cuts = np.array(ends[::-1])
     return np.asarray(edges[cuts[1:-1] - 1])
+
+
+def describe_disturbances(found: Sequence[Disturbance]) -> str | None:
+    """Lines and jumps in one sentence; ``None`` if there are none."""
+    lines = sorted({float(f"{d.at:.4g}") for d in found if d.kind == "line"})
+    jumps = sorted({round(d.at) for d in found if d.kind == "jump"})
+    said = []
+    if lines:
+        said.append("lines at " + ", ".join(f"{x:.4g} Hz" for x in lines[:MOST_LINES]))
+    if jumps:
+        said.append("jumps at " + ", ".join(f"{x} s" for x in jumps))
+    return "the output has " + " and ".join(said) if said else None
 
 
 def describe_level(level: Level) -> str | None:

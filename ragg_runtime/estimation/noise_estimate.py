@@ -17,6 +17,7 @@ from ragg_runtime.estimation.noise import (
     Level,
     NoiseModel,
     SpectralLine,
+    describe_disturbances,
     describe_level,
     estimate_level,
     level_quantities,
@@ -28,19 +29,16 @@ from ragg_runtime.estimation.observation import (
     spread,
 )
 from ragg_runtime.estimation.regressors import LinearisationPoint
-from ragg_runtime.estimation.residual import (
-    ProjectedResidual,
-    describe_disturbances,
-    fit_columns,
-    project_columns,
-)
 from ragg_runtime.estimation.spectrum import (
     LOWEST,
+    ProjectedResidual,
     Spectrum,
     Stretch,
     compute_periodogram,
     cut_lines,
     estimate,
+    fit_columns,
+    project_columns,
 )
 from ragg_runtime.estimation.whitening import Piece, pass_over
 from ragg_runtime.io.record import ANGULAR_RATE, SPECIFIC_FORCE
@@ -219,9 +217,8 @@ def _has_lines(o: Observation, p: _Part) -> bool:
         if name not in o.record.wide:
             continue
         x = o.record.wide[name][p.rows]
-        power = compute_periodogram(np.where(p.valid, x - np.mean(x[p.valid]), 0.0), o.record.rate)[1][
-            LOWEST:-1
-        ]
+        x = np.where(p.valid, x - np.mean(x[p.valid]), 0.0)
+        power = compute_periodogram(x, o.record.rate)[1][LOWEST:-1]
         if np.sum(power - cut_lines(power)) > LOUD * np.sum(power):
             return True
     return False

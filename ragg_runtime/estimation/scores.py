@@ -124,6 +124,9 @@ def pool_errors(errors: Sequence[Error], weights: Sequence[float]) -> Error:
         return Error(*(float(v) for v in np.sqrt(squares / np.sum(counted, axis=0))))
 
 
+STD_OF_MEDIAN = 1.4826
+"""Standard deviation of normal noise over the median of its absolute value."""
+
 INDISTINGUISHABLE = 9.0
 """Chi-square by which one explanation may be worse than another and still not be told apart (3 sigma)."""
 

@@ -22,7 +22,8 @@ from ragg_runtime.estimation.observation import (
     spread,
 )
 from ragg_runtime.estimation.regressors import LinearisationPoint, compute_residual, linearise, make_point
-from ragg_runtime.estimation.residual import STD_OF_MEDIAN, find_lines
+from ragg_runtime.estimation.scores import STD_OF_MEDIAN
+from ragg_runtime.estimation.spectrum import find_lines
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io.record import is_disc_angle
 from ragg_runtime.model.memory import list_late, list_memories

@@ -11,7 +11,7 @@ from scipy import ndimage
 from scipy.ndimage import binary_dilation, minimum_filter1d
 
 from ragg_runtime.base.errors import count
-from ragg_runtime.estimation.residual import STD_OF_MEDIAN
+from ragg_runtime.estimation.scores import STD_OF_MEDIAN
 from ragg_runtime.io import Flight
 from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import (

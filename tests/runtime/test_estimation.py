@@ -14,10 +14,9 @@ from scipy.linalg import toeplitz
 
 from ragg_runtime.estimation import calibration, observation
 from ragg_runtime.estimation.least_squares import SETTLED, VALLEY, Linear, is_settled, minimise
-from ragg_runtime.estimation.noise import describe_level, estimate_level
-from ragg_runtime.estimation.residual import describe_disturbances, find_lines, fit_columns
+from ragg_runtime.estimation.noise import describe_disturbances, describe_level, estimate_level
 from ragg_runtime.estimation.scores import log_sf_f
-from ragg_runtime.estimation.spectrum import LOWEST, Stretch, cut_lines, estimate
+from ragg_runtime.estimation.spectrum import LOWEST, Stretch, cut_lines, estimate, find_lines, fit_columns
 from ragg_runtime.estimation.unknown_gradient import make_splines
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model
