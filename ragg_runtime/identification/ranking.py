@@ -258,10 +258,14 @@ class Sets:
     @staticmethod
     def of(effects: Sequence[str], holds: NDArray[np.bool_], logs: Array) -> Sets:
         """Of sets that may be there several times: their weights add up."""
-        lacks, place = np.unique(~holds, axis=0, return_inverse=True)
-        total = np.full(len(lacks), -np.inf)
-        np.logaddexp.at(total, place.ravel(), logs)
-        return Sets(tuple(effects), ~lacks, total)
+        # a row is one key: an order of rows by column after column takes a sixth of a diagnosis
+        bits = np.packbits(np.pad(~holds, ((0, 0), (1, 0))), axis=1)
+        _, first, place = np.unique(
+            bits.view(f"V{bits.shape[1]}").ravel(), return_index=True, return_inverse=True
+        )
+        total = np.full(len(first), -np.inf)
+        np.logaddexp.at(total, place, logs)
+        return Sets(tuple(effects), holds[first], total)
 
     def with_one_of(self, options: Sequence[str]) -> Sets:
         """The sets where one of ``options`` is sure to be present, each as probable as the others beforehand."""
@@ -325,8 +329,10 @@ def _measure_jointly(Q: Array, y: Array, length: NDArray[np.intp], sets: NDArray
     """Chi-square (n,) of data y that sets (n, size) of blocks of columns of Q, each so long, explain together."""
     start, G, d = np.cumsum(length) - length, Q.T @ Q, Q.T @ y
     found, lengths = np.zeros(len(sets)), length[sets]
-    for shape in np.unique(lengths, axis=0):
-        members = np.flatnonzero((lengths == shape).all(axis=1))
+    shapes = lengths @ (1 + np.max(length, initial=0)) ** np.arange(sets.shape[1])
+    for key in np.unique(shapes):
+        members = np.flatnonzero(shapes == key)
+        shape = lengths[members[0]]
         begins = start[sets[members]].T[:, :, None]
         at = np.concatenate([b + np.arange(k) for b, k in zip(begins, shape, strict=True)], axis=1)
         inner = G[at[:, :, None], at[:, None]] + RIDGE * np.diag(np.arange(at.shape[1]) >= shape[0])
