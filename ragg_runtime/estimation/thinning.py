@@ -29,7 +29,7 @@ from ragg_runtime.io.record import is_disc_angle
 from ragg_runtime.model.memory import list_late, list_memories
 from ragg_runtime.model.model import Model, make_vector
 from ragg_runtime.model.record import HALO
-from ragg_runtime.signals.derivative import bridge_gaps
+from ragg_runtime.signals.derivative import FAR, WINDOW, bridge_gaps, find_short_runs
 from ragg_runtime.signals.fir import convolve
 
 Array = NDArray[np.float64]
@@ -69,12 +69,15 @@ def leave_out_uncertain(
 
 
 def leave_out_extrapolated(model: Model, p: Array, observations: Sequence[Observation]) -> list[Observation]:
-    """The observations without the ends where a model that differentiates the motion, with the parameters p, does not fit."""
-    if not any(n.startswith(("d_", "d2_")) for n in model.chain.INPUTS):
+    """The observations without the ends where a model that differentiates or moves the motion, with the parameters p, does not fit: of
+    the flight, and beside gaps too wide for the spline over them.
+    """
+    if not (any(n.startswith(("d_", "d2_")) for n in model.chain.INPUTS) or [*list_late(model)]):
         return list(observations)
     found = []
     for o in observations:
-        valid, ends = o.record.valid, np.zeros(len(o.record.valid), dtype=np.bool_)
+        valid = o.record.valid
+        ends = ndimage.binary_dilation(~valid & ~find_short_runs(~valid, FAR), iterations=WINDOW // 2)
         ends[:EXTRAPOLATED] = ends[-EXTRAPOLATED:] = True
         left = np.max(np.abs(compute_residual(model, o, p)), axis=0)
         std = STD_OF_MEDIAN * float(np.median(left[valid]))

@@ -383,6 +383,25 @@ def test_ends_whose_derivative_does_not_fit_are_not_fitted(flown, whole) -> None
         assert np.flatnonzero(~kept.record.valid).tolist() == left_out
 
 
+def test_beside_a_long_gap_motion_that_does_not_fit_is_not_fitted(flown, whole) -> None:
+    """Three samples on either side, up to 36 standard deviations off, were taken for noise that changes over the record."""
+    late = derive.with_effects(flown[0].sheet, model.load_packaged(), ["time-offset"])
+    n = len(whole.record.time)
+    valid = np.ones(n, dtype=bool)
+    valid[200:300] = valid[400:403] = False
+    series = tuple(y + 0.1 * (np.arange(n) == 199) for y in whole.series)
+    off = replace(whole, series=series, record=replace(whole.record, valid=valid))
+    (kept,) = thinning.leave_out_extrapolated(late, make_vector(late, flown[0].instrument), [off])
+    assert np.flatnonzero(valid & ~kept.record.valid).tolist() == [
+        0,
+        1,
+        *range(188, 200),
+        *range(300, 312),
+        n - 2,
+        n - 1,
+    ]
+
+
 @pytest.mark.parametrize("samples", [24, 30000, 40000, 8_640_000])
 def test_segments_and_their_blocks_cover_a_flight_once(samples: int) -> None:
     found = divide_into_segments(samples)
