@@ -127,7 +127,7 @@ class Units:
 
     def _prepare(self, unit: str, si_unit: str, where: str | None) -> tuple[Any, Any, bool]:
         """Both units, of one dimension, and whether angles of the first are turns of the other; else UserError."""
-        unit = self._find_meant(unit, si_unit) or unit
+        unit = self.find_meant(unit, si_unit) or unit
         given, si = self.parse(unit, where), self.parse(si_unit)
         if given.dimensionality != si.dimensionality:
             raise UserError(
@@ -160,9 +160,9 @@ class Units:
 
     def fits(self, unit: str, si_unit: str) -> bool:
         """Whether ``unit`` is a unit and has the dimension of ``si_unit``."""
-        return self._find_meant(unit, si_unit) is not None
+        return self.find_meant(unit, si_unit) is not None
 
-    def _find_meant(self, unit: str, si_unit: str) -> str | None:
+    def find_meant(self, unit: str, si_unit: str) -> str | None:
         """What alone has the dimension: ``g`` for G of an acceleration, ``degC`` for C of a temperature, ``m/s2`` for M/S2."""
         wanted = self.parse(si_unit).dimensionality
         for reading in (unit, _LETTERS.get(unit.strip(), unit), unit.casefold()):
@@ -256,29 +256,30 @@ _NAMED = {
     spelling: unit
     for unit, spellings in {
         # EU would be an exa-enzyme-unit, gal a gallon and E nothing at all.
-        "Eo": ("E", "EU", "EO", "Eö", "EOTVOS", "Eötvös", "eötvös", "Eoetvoes", "eotvoes"),
+        "Eo": ("E", "EU", "EO", "Eö", "EOTVOS", "Eötvös", "eötvös", "Eötvos", "Eoetvoes", "eotvoes"),
         "mEo": ("mE",),
         "uEo": ("uE", "µE", "μE"),
         "Gal": ("gal", "gals", "GAL"),
         "mGal": ("mgal", "mgals", "MGAL", "milligal"),
         "uGal": ("ugal", "µgal", "μgal", "microgal"),
-        "deg/s": ("dps", "DPS", "º/s"),
-        "deg/h": ("dph", "degph", "º/h"),
+        "deg/s": ("dps", "DPS"),
+        "deg/h": ("dph", "degph"),
         "mdeg/s": ("mdps", "MDPS"),
-        "degC": (
-            *("\u2103", "deg C", "° C", "deg.C", "Celsius", "CELSIUS", "DEGC"),
-            *("degrees_celsius", "degrees_Celsius", "degrees_C", "degreesC", "degree_C"),  # of CF
-        ),
+        "degC": ("\u2103", "Celsius", "CELSIUS", "degrees_celsius", "degrees_Celsius"),
+        "degF": ("\u2109",),
         "rad": ("rads",),
-        "V": ("Vdc", "VDC"),
+        "V": ("Vdc", "VDC", "V DC"),
         "mV": ("mVolt", "mVolts"),
         "g": ("g's", "G's", "gs", "gee", "gees"),
         "1": ("unitless",),
     }.items()
     for spelling in spellings
 }
-_LETTERS = {"C": "degC", "F": "degF"}
-"""What people write C and F for where only this has the dimension."""
+_DEGREES = re.compile(r"(?:deg(?:rees?)?|°|o)[ ._]*([CFK])", re.IGNORECASE)
+"""Of temperature: Deg. C, °K."""
+
+_LETTERS = {"C": "degC", "F": "degF", "k": "K", "ms-2": "m s-2", "ms^-2": "m s-2", "mps2": "m s-2", "gn": "g"}
+"""What people write these for where only this has the dimension."""
 
 _WORDS = frozenset((
     "deg", "degs", "degree", "degrees", "rad", "rads", "radian", "radians", "s", "sec", "secs", "second", "seconds", "h",
@@ -291,12 +292,15 @@ _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 
 def spellings(text: str) -> Iterator[str]:
     """What ``text`` may mean, in the order to try: the field's spellings first."""
+    text = text.replace("º", "°")
+    if degrees := _DEGREES.fullmatch(text):
+        text = {"C": "degC", "F": "degF", "K": "K"}[degrees[1].upper()]
     yield _NAMED.get(text, text)
+    text = re.sub(r"°(?=[^\W\d])", "deg ", text).replace("_per_", "/")
     plain = re.sub(r"[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda m: "^" + m[0].translate(_SUPERSCRIPTS), text)
     plain = re.sub(r"(?<=[^\W\d_])(-?\d+)(?![\w.])", r"^\1", plain)
     plain = re.sub(r"(?<=[^\W_])\.(?=[^\W\d_])", "*", plain)  # m.s-2
-    if plain != text:
-        yield plain
+    yield plain
     words = re.findall(r"[^\W\d_]+", plain)
     if words and all(w.casefold() in _WORDS for w in words):
         yield plain.casefold()

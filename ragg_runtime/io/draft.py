@@ -309,8 +309,9 @@ def _find_unit(c: DataColumn, name: str, questions: list[str], where: str) -> tu
     """The unit to write and a remark; a question where the file gives none or one that cannot be."""
     stem = re.sub(r"_[^_]+$", "", name)
     si = SI_UNITS.get(name) or (SI_UNITS.get(stem) if stem in DEMODULATED else None)
-    if c.unit and is_unit(c.unit) and (si is None or units(9.8).fits(c.unit, si)):
-        return _quoted(c.unit), ""
+    given = units(9.8).find_meant(c.unit, si) if c.unit and si else c.unit
+    if given and is_unit(given):
+        return _quoted(given), ""
     named = _take_unit(_fold(c.name))[1]
     if not c.unit and named and si is not None and units(9.8).fits(named, si):
         return named, "likely: from its name"

@@ -46,15 +46,33 @@ _DAY, _HOUR = 86400 * _SECOND, 3600 * _SECOND
 _NO_HOUR = "000000"
 _NONE = np.iinfo(np.int64).min
 _STAMP = re.compile(
-    r"(?:(?P<days>-?\d+) +days?,?(?: +|$))?"
-    r"(?:(?P<date>\d[\w/.-]*\d|(?=.*[A-Za-z]{3})[\w.,/ -]*?\w),?(?:[T _-] *(?=\d+:)|$))?"
+    r"(?:(?P<days>-?\d+)(?: +days?,?(?: +|$)|\.(?=\d\d:\d\d:\d\d)))?"
+    r"(?:(?P<date>\d[\w/.-]*\d|(?=.*[A-Za-z]{3})[\w.,/ -]*?\w)(?:(?:,|,?[T _-]) *(?=\d+:)|,?$))?"
     r"(?:(?P<h>\d{1,6}):(?P<m>[0-5]?\d)(?::(?P<s>[0-5]?\d|60)(?:[.,](?P<f>\d*))?)?(?: *(?P<half>[AaPp])\.?[Mm]\.?)?)?"
-    r" *(?P<zone>Z|UTC|GMT|[+-]\d{2}:?\d{2})?(?P<year> \d{4})?"
+    r" *(?P<zone>Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?)?(?P<year> \d{4})?"
 )
 _NUMBERS = re.compile(r"(\d{1,4})([-/. ])(\d{1,2})\2(\d{1,4})")
 _PACKED = re.compile(
     r"(?:19|20)\d\d(?:0[1-9]|1[0-2])(?:0[1-9]|[12]\d|3[01])(?:[01]\d|2[0-3])[0-5]\d[0-5]\d(?:\.?\d{0,9})"
 )
+_SPELLINGS = tuple(
+    (re.compile(pattern), plain)
+    for pattern, plain in (
+        (r"^\[(.+)\]$", r"\1"),
+        (r"(:\d\d:\d\d):(\d{3,9})(?!\d)", r"\1.\2"),  # 13:28:50:400
+        (r"^(\d{4}):(\d{3})[:T ](?=\d\d:\d\d:)", r"\1-\2T"),  # 2026:060:13:28:50 of the day of the year
+        (r"^(\d{4}):(\d\d):(\d\d)[:T ](?=\d\d:\d\d:)", r"\1-\2-\3T"),
+        (r"^(\d\d:\d\d[.,]\d+)$", rf"{_NO_HOUR}:\1"),  # 28:50.4, as Excel shows times
+        (rf"^(?={_PACKED.pattern}$)(\d{{8}})(\d\d)(\d\d)(\d\d)\.?", r"\1T\2:\3:\4."),  # 20260301132850.4
+        (r"^(\d{8}|\d{4}-\d\d-\d\d)[T _-](\d\d)(\d\d)(\d\d)", r"\1T\2:\3:\4"),  # 20260301T132850.4
+        (r"^(\d\d?:\d\d\S*(?: [AaPp][Mm])?),? +(\d+([-/.])\w+\3\d+)$", r"\2 \1"),  # 13:28:50.4 31/12/2026
+        (r"^(\d\d?)\. ?(\d\d?)\. ?(\d{4})\.?(?= )", r"\1.\2.\3"),  # 31. 12. 2026
+        (r"^(\d+[-/]?[A-Za-z]{3}[-/]?\d{4}):", r"\1 "),  # 31/Dec/2026:13:28:50
+        (r"^(\d+([-/.])\w+\2\d+[T _])(\d\d)([-.])(\d\d)\4(\d\d)", r"\1\3:\5:\6"),  # 2026-12-31 13.28.50
+    )
+)
+"""Other ways of writing a stamp, and what they mean."""
+
 _YEAR_DAY = re.compile(r"(\d{4})[-/.]?(\d{3})")
 
 
@@ -73,17 +91,10 @@ class Stamps:
 
 
 def _match(text: str) -> re.Match[str] | None:
-    """A stamp taken apart; 20260301T132850.4 is 2026-03-01T13:28:50.4, 28:50.4 (as Excel shows times) 0:28:50.4, and colons may
-    stand before milliseconds (13:28:50:400) and in dates (2026:060:13:28:50 of the day of the year).
-    """
-    text = re.sub(r"(:\d\d:\d\d):(\d{3,9})(?!\d)", r"\1.\2", text)
-    text = re.sub(
-        r"^(\d{4}):(\d{3}|\d\d:\d\d)[:T ](?=\d\d:\d\d:)", lambda m: f"{m[1]}-{m[2].replace(':', '-')}T", text
-    )
-    text = re.sub(r"^(\d\d:\d\d[.,]\d+)$", rf"{_NO_HOUR}:\1", text)
-    if _PACKED.fullmatch(text):
-        text = re.sub(r"^(\d{8})(\d\d)(\d\d)(\d\d)\.?", r"\1T\2:\3:\4.", text)
-    return _STAMP.fullmatch(re.sub(r"^(\d{8}|\d{4}-\d\d-\d\d)[T ](\d\d)(\d\d)(\d\d)", r"\1T\2:\3:\4", text))
+    """A stamp taken apart, however it is written."""
+    for pattern, plain in _SPELLINGS:
+        text = pattern.sub(plain, text)
+    return _STAMP.fullmatch(text)
 
 
 def are_packed(values: Iterable[Any]) -> bool:
@@ -199,8 +210,14 @@ def _read_texts(values: Sequence[str], order: str | None, where: str, row: Calla
     known = {k: m for k, m in matches.items() if m is not None}
     dates = dict.fromkeys(d for m in known.values() if (d := _date_in(m)))
     dated, days = bool(dates), dict[str, int | None]({"": 0})
+    notes: tuple[str, ...] = ()
     if dated and order is None and all(m and _date_in(m) for m in matches.values()):
         order = find_order(dates)
+        first = next(iter(dates))
+        if order == "dmy" and _is_year_first(first):
+            notes = (
+                f'dates are read as d/m/y, {first} as the day {first[:2]}; otherwise: [time] format = "y/m/d"',
+            )
         if order is None:
             raise UserError(
                 "a date could be day/month or month/day",
@@ -225,7 +242,7 @@ def _read_texts(values: Sequence[str], order: str | None, where: str, row: Calla
         return Stamps(np.where(total == _NONE, np.nan, (total + hours) / _SECOND))
     if not dated and any(m["days"] or int(m["h"]) > 23 for m in known.values()):
         return Stamps(np.where(total == _NONE, np.nan, total / _SECOND), instants=False)
-    return _count(total, dated, ("a leap second (hh:mm:60) is counted",) if leaps else ())
+    return _count(total, dated, notes + ("a leap second (hh:mm:60) is counted",) * bool(leaps))
 
 
 def _date_in(m: re.Match[str]) -> str:
@@ -250,7 +267,7 @@ def _read_clock(m: re.Match[str]) -> int | None:
     )
     zone = m["zone"] or ""
     if zone[:1] in ("+", "-") and m["date"] is not None:
-        total -= int(zone[0] + "1") * (int(zone[1:3]) * 60 + int(zone[-2:])) * 60 * _SECOND
+        total -= int(zone[0] + "1") * (int(zone[1:3]) * 60 + int(zone[3:].lstrip(":") or 0)) * 60 * _SECOND
     return total + days
 
 
@@ -259,11 +276,29 @@ def find_order(values: Iterable[Any]) -> str | None:
     matches = (_match(str(t).strip()) for t in dict.fromkeys(values))
     dates = dict.fromkeys(_date_in(m) for m in matches if m)
     numbers = [m for d in dates if (m := _NUMBERS.fullmatch(d))]
-    if all(len(m[1]) == 4 for m in numbers):
+    if all(len(m[1]) == 4 for m in numbers) or _follow_as_years(m[0] for m in numbers):
         return "ymd"
     if any(m[2] == "." or int(m[1]) > 12 for m in numbers):  # with dots the day is first
         return "dmy"
     return "mdy" if any(int(m[3]) > 12 for m in numbers) else None
+
+
+def _is_year_first(date: str) -> bool:
+    """Whether the year, of two digits, could be first: 26/03/01."""
+    m = _NUMBERS.fullmatch(date)
+    return m is not None and max(len(m[1]), len(m[4])) == 2 and _read_date(date, "ymd") is not None
+
+
+def _follow_as_years(dates: Iterable[str]) -> bool:
+    """Whether dates are nearer to each other with the year first: 26/03/01, 26/03/02."""
+    texts = [*dates]
+    if not all(map(_is_year_first, texts)):
+        return False
+    spans = []
+    for order in ("ymd", "dmy"):
+        days = [d for t in texts if (d := _read_date(t, order)) is not None]
+        spans.append(max(days) - min(days) if len(days) == len(texts) else np.inf)
+    return spans[0] < spans[1]
 
 
 def _read_date(text: str, order: str) -> int | None:

@@ -336,7 +336,11 @@ def test_g_is_g0_wherever_it_stands(g0: float) -> None:
         ("Deg/Hr", "rad/s", math.pi / 180 / 3600),
         ("m/s²", "m/s^2", 1.0),
         ("G", "m/s^2", 9.8),
-        *((celsius, "K", 274.15) for celsius in ("\u2103", "C", "degC", "degrees_celsius")),
+        *((celsius, "K", 274.15) for celsius in ("\u2103", "C", "degC", "degrees_celsius", "ºC", "Deg. C")),
+        *((kelvin, "K", 1.0) for kelvin in ("deg K", "°K", "k")),
+        *((acceleration, "m/s^2", 1.0) for acceleration in ("ms-2", "mps2")),
+        *((rate, "rad/s", math.pi / 180) for rate in ("°s⁻¹", "deg_per_s", "degree_per_second")),
+        ("RPM", "rad/s", 2 * math.pi / 60),
     ],
 )
 def test_conversions(unit: str, si_unit: str, expected: float) -> None:
