@@ -308,10 +308,16 @@ def _drop_headers(data: bytes, delimiter: str, headings: Sequence[bytes], notes:
 
 
 def _parse(data: bytes, delimiter: str, lines: int, width: int, path: Path, notes: list[str]) -> pa.Table:
-    """The columns as texts; UserError where a line with data has another width. Others, such as remarks, are skipped."""
+    """The columns as texts; UserError where a line with data has another width. Others, such as remarks, and
+    a last line that is cut off are skipped.
+    """
     passed: list[str] = []
+    cut = data[data.rfind(b"\n") + 1 :].decode()  # a recorder that lost its power ends within a line
 
     def judge(row: pyarrow.csv.InvalidRow) -> str:
+        if row.text == cut and row.actual_columns < row.expected_columns:
+            notes.append(f"line {row.number}, the last one, is cut off; it is left out")
+            return "skip"
         if not _REMARK.match(row.text) and _is_data(row.text.split(delimiter)):
             return "error"
         passed.append(f"line {row.number} ({row.text[:40]!r})")

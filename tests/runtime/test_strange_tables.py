@@ -84,6 +84,7 @@ CSV = {
     "a remark in one row": text(PLAIN + ",remark", [[*r, "1" if k < 50 else "x"] for k, r in enumerate(rows())]),
     "an index that is time": text("," + PLAIN.partition(",")[2], rows([f"0 days 00:00:{t:09.6f}" for t in VALUES["time"]])),
     "remarks among the rows and at the end": text(PLAIN, [*rows()[:9], ["# marker 5"], *rows()[9:], ["end", "of", "record"]]),
+    "cut off in its last line": text(PLAIN, [*rows(), [3.75, 0.1]]).rstrip(),
     "joined from two": text(PLAIN, [*rows()[:9], [PLAIN], *rows()[9:]]),
     "thousands": text("time [ms]," + PLAIN.partition(",")[2], rows([f'"{1000 * t:,.1f}"' for t in VALUES["time"]])),
     "points between thousands": text(
