@@ -27,21 +27,8 @@ os.environ.pop("RAGG_EFFECTS", None)
 
 
 DEAREST = (
-    "test_studio_browser.py",
-    "test_studio_server.py",
-    "test_loop.py",
-    "test_verdict.py",
-    "test_reference.py",
-    "test_screening_mistakes.py",
-    "test_survey.py",
-    "test_effect_conformance.py",
-    "test_terms.py",
-    "test_next_motion.py",
-    "test_compensate.py",
-    "test_real_measurements.py",
-    "test_export.py",
-    "test_bad_input_messages.py",
-    "test_reference_pages.py",
+    "survey studio_browser verdict loop series screening_mistakes studio_server compensate outputs next_motion effect_conformance "
+    "layouts_physics reference_pages benchmarks real_measurements gates reference terms several_outputs report instrument export"
 )
 """The longest first: what one worker begins last the other waits for."""
 
@@ -49,7 +36,7 @@ DEAREST = (
 WHOLE = ("test_next_motion.py", "test_outputs.py", "test_screening_mistakes.py")
 """Files in which nothing is left out of reading and diagnosis; servers and other processes of their own leave nothing out either."""
 
-SCREENED = (*WHOLE, "test_form.py", "test_bad_input_messages.py", "test_reference_pages.py")
+SCREENED = (*WHOLE, "test_instrument.py", "test_reference_pages.py")
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -78,8 +65,8 @@ def no_figures(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """The dearest files first, each whole."""
-    rank = {name: k for k, name in enumerate(DEAREST)}
-    items.sort(key=lambda item: rank.get(item.path.name, len(rank)))
+    rank = {name: k for k, name in enumerate(DEAREST.split())}
+    items.sort(key=lambda item: rank.get(item.path.stem.removeprefix("test_"), len(rank)))
 
 
 def pytest_collection_finish() -> None:

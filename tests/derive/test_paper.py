@@ -5,9 +5,8 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +14,7 @@ import pytest
 import sympy as sp
 from click.testing import CliRunner
 from numpy.typing import NDArray
-from sympy import QQ
+from test_effect_conformance import place, voltage
 
 from derive.audit import audit, direct, result
 from derive.audit.compare import (
@@ -33,21 +32,18 @@ from derive.audit.compare import (
     read,
     transducer_reader,
 )
-from derive.chain import accelerometer
 from derive.effects import catalogue
-from derive.layout import SymbolicForm
 from derive.propagation import (
     COEFFICIENT_PARAMETERS,
     MOTION_NUMBERS,
     Collected,
     collect,
-    from_generic,
     motion_numbers,
 )
 from derive.simplify import DYNAMIC_EXPERIMENT, PAPER_ENVELOPE, Envelope, certified_bound, simplified
 from derive.simplify.page import critical_conditions
-from derive.stages import Kinematics
-from derive.symbols import MOTION, QUARTER_TURNS, SECOND_ORDER, SIGNS, SPIN_ACCELERATION, SPIN_RATE
+from derive.stages import PAPER
+from derive.symbols import MOTION, SECOND_ORDER, SIGNS, SPIN_ACCELERATION, SPIN_RATE
 from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.experiments.__main__ import main
 from ragg_runtime.experiments.paper import Experiment, find_error, write_page
@@ -103,12 +99,6 @@ def test_a_term_left_out_of_eq_5b_is_found(e):
         outcome = compare(read(replace(e, terms=(*e.terms[:n], *e.terms[n + 1 :])), reader), right)
         assert len(outcome.missing) == len(reader.read(term))
         assert not outcome.mistakes
-
-
-def test_a_wrong_derivation_is_found():
-    e = next(e for e in ANALYTICAL if e.left == r"A_{4\Omega}^c")
-    assert not compare(read(e, READER, EXPAND), derived(e)).mistakes
-    assert len(compare(read(e, READER, EXPAND), derived(e) * QQ(2)).mistakes) == len(e.terms)
 
 
 @pytest.mark.parametrize(
@@ -169,20 +159,6 @@ FULL = dataclasses.replace(PAPER_ENVELOPE, kinematics="full", spin_acceleration=
 ENVELOPES = {"paper": PAPER_ENVELOPE, "quiet": QUIET, "bare": BARE, "full": FULL}
 
 
-def bound_of(envelope: Envelope, model: Collected) -> float:
-    """The certified bound, Eo."""
-    return float(sum(certified_bound(envelope, model).values()))
-
-
-@cache
-def voltage(kinematics: Kinematics) -> Callable[..., Array]:
-    """V_j of the chain of stages (Eq. 1-14), as a function of numbers."""
-    a = accelerometer((), SymbolicForm(kinematics=kinematics))
-    inputs = [*MOTION_NAMES, "radius", "dR", *OWN, "K1", "k_VI", "cos_phi", "sin_phi", "cos_j", "sin_j"]
-    f: Callable[..., Array] = sp.lambdify(inputs, a.voltage, "numpy", cse=lambda e: (a.tape.assignments, e))
-    return f
-
-
 def product(values: Sequence[Array], powers: Sequence[int]) -> Array | float:
     return math.prod((values[i] ** p for i, p in enumerate(powers) if p), start=1.0)
 
@@ -223,11 +199,15 @@ class Discrepancy:
         phi = x[-1]
         full = np.zeros_like(phi)
         for j in range(4):
-            q = QUARTER_TURNS[j]
-            cos_j, sin_j = (1.0, 0.0, -1.0, 0.0)[q], (0.0, 1.0, 0.0, -1.0)[q]
-            v = voltage(self.kinematics)(
-                *motion, self.radius, *own[1:, j], k1[j], 1.0, np.cos(phi), np.sin(phi), cos_j, sin_j
-            )
+            known = {
+                "radius": self.radius,
+                "K1": k1[j],
+                "k_VI": 1.0,
+                "cos_phi": np.cos(phi),
+                "sin_phi": np.sin(phi),
+            }
+            known |= dict(zip((*MOTION_NAMES, "dR", *OWN), (*motion, *own[1:, j]), strict=True))
+            v = voltage((), PAPER, self.kinematics)(known | place(j))["V"]
             full = full + SIGNS[j] * v
         numbers = [*motion[:3], *self._numbers(*motion)]
         kept = np.zeros_like(phi)
@@ -256,34 +236,16 @@ def climb(error: Discrepancy, start: Array) -> float:
         point, best = tried[k], float(values[k])
 
 
-def worst(error: Discrepancy, rng: np.random.Generator, starts: int) -> float:
-    """The largest error found: corners climbed from many starts."""
-    found = []
-    for _ in range(starts):
-        start = rng.choice([-1.0, 1.0], len(NAMES) + 1)
-        start[-1] = rng.uniform(-1, 1)
-        found.append(climb(error, start))
-    return max(found)
-
-
 @pytest.mark.parametrize("name", ENVELOPES)
 def test_no_search_exceeds_the_bound_and_it_is_not_loose(name: str) -> None:
-    envelope = ENVELOPES[name]
+    """Corners climbed from two starts."""
+    envelope, rng, found = ENVELOPES[name], np.random.default_rng(20240607), 0.0
     model = simplified(envelope)
-    found = worst(Discrepancy(envelope, model), np.random.default_rng(20240607), starts=2)
-    assert found <= bound_of(envelope, model) < 3.5 * found
-
-
-def test_the_search_notices_a_missing_term() -> None:
-    """Without K_7 a_z^2 the model errs by more than its certified bound had been with it."""
-    model = simplified()
-    generic = {k: dict(v) for k, v in model.generic.items()}
-    a_z_squared = next(m for m, c in generic[0, "c"].items() if str(c.as_expr()) == "K7*k1")
-    del generic[0, "c"][a_z_squared]
-    error = Discrepancy(PAPER_ENVELOPE, from_generic(generic))
-    found = worst(error, np.random.default_rng(1), starts=1)
-    assert found > 100 * bound_of(PAPER_ENVELOPE, model)
-    assert found <= bound_of(PAPER_ENVELOPE, from_generic(generic))
+    for _ in range(2):
+        start = rng.choice([-1.0, 1.0], len(NAMES) + 1)
+        start[-1] = rng.uniform(-1, 1)
+        found = max(found, climb(Discrepancy(envelope, model), start))
+    assert found <= sum(certified_bound(envelope, model).values()) < 3.5 * found
 
 
 G0 = 9.8

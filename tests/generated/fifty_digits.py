@@ -1,14 +1,12 @@
 """The instrument at 50 digits, written down from Eq. 1-15 in vectors: no symbol, no printing, no expansion.
 
 The order of counting is the paper's: mounting rotations to first order in each angle and multiplied out,
-misalignment to first order (Eq. 2), second-order terms without angles (below Eq. 5b); or everything is exact
-(``Place``).
+misalignment to first order (Eq. 2), second-order terms without angles (below Eq. 5b).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -70,49 +68,15 @@ def voltages(t: Any, x: Sequence[Any], p: Sequence[Any]) -> list[Any]:
     ]
 
 
-def in_axes(x: Sequence[Any], axes: Sequence[Sequence[Any]]) -> list[Any]:
-    """The 15 motion channels along other axes, each given by its components."""
-    a, omega, omegadot = x[0:3], x[3:6], x[6:9]
-    Gamma = _gradient(x)
-    turned = [[_dot(u, [_dot(row, v) for row in Gamma]) for v in axes] for u in axes]
-    return [
-        *(_dot(u, v) for v in (a, omega, omegadot) for u in axes),
-        *(turned[i][k] for i in range(3) for k in range(i, 3)),
-    ]
+def _turned(v: Sequence[Any], axis: Sequence[Any], angle: Any) -> list[Any]:
+    """A vector, turned about a unit axis, to first order."""
+    return _plus(v, _times(angle, _cross(axis, v)))
 
 
-def _gradient(x: Sequence[Any]) -> tuple[tuple[Any, ...], ...]:
+def voltage(k: Mapping[str, Any], radius: Any, psi: Any, x: Sequence[Any]) -> Any:
+    """V of one accelerometer with parameters ``k`` at the angle ``psi`` on the disc."""
     xx, xy, xz, yy, yz, zz = x[9:]
-    return ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
-
-
-@dataclass(frozen=True)
-class Place:
-    """What tells an accelerometer from those of the paper: height, turned triad (3 x 3 in e_r, e_t, e_a), and how it is counted.
-
-    ``spin`` are rate and acceleration of the disc where its turning is felt; ``exact``: all angles, everywhere.
-    """
-
-    height: Any = real(0)
-    turn: Sequence[Sequence[Any]] = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
-    spin: tuple[Any, Any] = (real(0), real(0))
-    exact: bool = False
-
-
-def _turned(v: Sequence[Any], axis: Sequence[Any], angle: Any, exact: bool) -> list[Any]:
-    """A vector, turned about a unit axis: by Rodrigues' formula, or to first order."""
-    across = _cross(axis, v)
-    if not exact:
-        return _plus(v, _times(angle, across))
-    return _plus(v, _times(CONTEXT.sin(angle), across), _times(1 - CONTEXT.cos(angle), _cross(axis, across)))
-
-
-def voltage(k: Mapping[str, Any], radius: Any, psi: Any, x: Sequence[Any], at: Place = Place()) -> Any:
-    """V of one accelerometer with parameters ``k`` at the angle ``psi`` on a disc along whose axes the channels are."""
-    Gamma = _gradient(x)
-    spin, swing = ([real(0), real(0), s] for s in at.spin)
-    omega = _plus(x[3:6], spin)
-    omegadot = _plus(x[6:9], swing, _cross(x[3:6], spin))  # the platform carries the axis along
+    Gamma, omega, omegadot = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)), x[3:6], x[6:9]
 
     def specific_force(r: Sequence[Any]) -> list[Any]:
         gravity = [-_dot(row, r) for row in Gamma]
@@ -121,26 +85,18 @@ def voltage(k: Mapping[str, Any], radius: Any, psi: Any, x: Sequence[Any], at: P
     e_r = [CONTEXT.cos(psi), CONTEXT.sin(psi), real(0)]
     e_t = [-CONTEXT.sin(psi), CONTEXT.cos(psi), real(0)]
     e_z = [real(0), real(0), real(1)]
-    # nominal triad: along the turn, outward, down; turned with the accelerometer
-    columns = [[row[n] for row in at.turn] for n in (1, 0, 2)]
-    triad = [_plus(_times(r, e_r), _times(t, e_t), _times(z, e_z)) for r, t, z in columns]
-    triad[2] = _times(-1, triad[2])
+    triad = [e_t, e_r, _times(-1, e_z)]
 
     def mounted(v: Sequence[Any], lift: Any) -> list[Any]:
-        return _turned(_turned(v, e_t, lift, at.exact), e_z, k["beta_z"], at.exact)
+        return _turned(_turned(v, e_t, lift), e_z, k["beta_z"])
 
-    R, lifted = radius + k["dR"], _times(at.height, e_z)
-    f = specific_force(_plus(_times(R, mounted(e_r, -k["beta_x"])), lifted))
+    R = radius + k["dR"]
+    f = specific_force(_times(R, mounted(e_r, -k["beta_x"])))
     sensed = [_dot(f, mounted(u, k["beta_x"])) for u in triad]
-    if at.exact:  # about x, then y, then z (Section II.A.1)
-        for n, name in enumerate(("vartheta_x", "vartheta_y", "vartheta_z")):
-            sensed = _turned(sensed, [real(int(n == m)) for m in range(3)], -k[name], True)
-        i = sensed[0]
-        q_i, q_o, q_p = sensed
-    else:  # second-order terms: nominal place and triad, at the actual radius
-        i = sensed[0] + sensed[1] * k["vartheta_z"] - sensed[2] * k["vartheta_y"]
-        q = specific_force(_plus(_times(R, e_r), lifted))
-        q_i, q_o, q_p = (_dot(q, u) for u in triad)
+    # second-order terms: nominal place and triad, at the actual radius
+    nominal = specific_force(_times(R, e_r))
+    q_i, q_o, q_p = (_dot(nominal, u) for u in triad)
+    i = sensed[0] + sensed[1] * k["vartheta_z"] - sensed[2] * k["vartheta_y"]
     i += k["K0"] + k["K2"] * q_i**2 + k["K5"] * q_o**2 + k["K7"] * q_p**2
     i += k["K4"] * q_i * q_p + k["K6"] * q_i * q_o + k["K8"] * q_o * q_p
     return k["k_VI"] * k["K1"] * i

@@ -12,7 +12,7 @@ from ragg_runtime.io import Flight
 from ragg_runtime.reference import EffectValues, simulate
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion, perturbed
 from ragg_runtime.reference.simulate import eotvos_noise
-from tests.rate import RATE
+from tests.simulated import RATE
 
 
 def accelerometer(name: str, angle: float, sign: int, output: str = "G_out", further: str = "") -> str:
@@ -92,16 +92,20 @@ def oblique() -> list[str]:
     return [disc("A", four("A", "G_out", 30.0), (1, 0, 0))]
 
 
+def leaning(axis: Sequence[float], output: str = "G_out", spin: float = 0.25) -> str:
+    """A disc with heights and directions."""
+    places = [
+        accelerometer("A1", 10.0, 1, output, 'height = "0.03 m"\ndirection = [0.2, 0.9, 0.3]\n'),
+        accelerometer("A2", 200.0, 1, output, 'radius = "0.12 m"\n'),
+        accelerometer("A3", 100.0, -1, output, "direction = [0, -1, 0]\n"),
+    ]
+    return disc("A", places, axis, spin)
+
+
 def odd() -> list[str]:
     """A vertical disc with heights and directions, and a disc that stands still beside it."""
-    more = 'height = "0.03 m"\ndirection = [0.2, 0.9, 0.3]\n'
-    vertical = [
-        accelerometer("A1", 10.0, 1, "G_out_A", more),
-        accelerometer("A2", 200.0, 1, "G_out_A", 'radius = "0.12 m"\n'),
-        accelerometer("A3", 100.0, -1, "G_out_A", "direction = [0, -1, 0]\n"),
-    ]
-    beside = [accelerometer("B1", 30.0, 1, "G_out_B", 'direction = [1, 0, 0]\nheight = "-0.2 m"\n')]
-    return [disc("A", vertical, (1.0, 0.1, 0.0), 0.3), disc("B", beside, (0, 0, -1), 0.0)]
+    beside = accelerometer("B1", 30.0, 1, "G_out_B", 'direction = [1, 0, 0]\nheight = "-0.2 m"\n')
+    return [leaning((1.0, 0.1, 0.0), "G_out_A", 0.3), disc("B", [beside], (0, 0, -1), 0.0)]
 
 
 def flown_by(sheet: Instrument, duration: float, effects: EffectValues = MappingProxyType({})) -> Flight:

@@ -1,4 +1,4 @@
-"""Derived models of other layouts, their spin, effects and C, against the numerical reference and against fifty digits."""
+"""Derived models of other layouts, their spin, effects and C, against the numerical reference."""
 
 from __future__ import annotations
 
@@ -13,9 +13,7 @@ import pytest
 from numpy.typing import NDArray
 
 from derive.effects import catalogue
-from derive.symbols import MOTION
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.instrument.units import EOTVOS, units
@@ -26,7 +24,6 @@ from ragg_runtime.model.record import Record, record
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from ragg_runtime.simulate import parse_turning, simulate_flight
-from tests.generated import fifty_digits as fifty
 from tests.layouts import sheets
 
 LAYOUTS: dict[str, tuple[Callable[[], list[str]], int]] = {
@@ -54,14 +51,17 @@ def flown(i: Instrument, duration: float = 60.0, **options: Any) -> Flight:
 
 
 def worst(i: Instrument, flight: Flight, inner: slice = slice(20, -20)) -> float:
-    """Largest difference of any output, Eo; by default not at the ends, where the rate of a recorded angle is less sure."""
+    """Largest difference of any output from the flight's, in C or NumPy, Eo; by default not at the ends, where the rate of a recorded
+    angle is less sure.
+    """
     model, _ = derive.derived((), (), i.form, i.layout)
     p = make_vector(model, i)
     found = []
     for k, o in enumerate(i.layout.outputs):
         r = record(flight, i, k)
-        left = flight.outputs[o.name] - evaluate_output(model.chain, r, p, o)
-        found.append(float(np.max(np.abs(left[inner]))) / scale_factor(model, p, k))
+        for chain in (model.chain, replace(model.chain, sources={})):
+            left = flight.outputs[o.name] - evaluate_output(chain, r, p, o)
+            found.append(float(np.max(np.abs(left[inner]))) / scale_factor(model, p, k))
     return max(found)
 
 
@@ -76,7 +76,8 @@ def test_derived_agrees_with_reference(name: str, head: str, kinematics: str, ro
     flight = flown(i, kinematics=kinematics, rotations=rotations, effects=effects)
     size = max(float(np.std(flight.outputs[n])) for n in i.layout.output_names)
     gap = worst(i, flight)
-    assert gap < 1e-4, gap  # rounding of a single accelerometer's volt is 1e-6 Eo and more
+    # half a unit in the last place of a recorded force is worth 5e-5 Eo where the places do not balance
+    assert gap < (5e-5 if name == "odd" else 1e-5), gap
     assert size / (i.scale_factor * EOTVOS) > 1e3
 
 
@@ -174,14 +175,8 @@ WITH_DIRECTIONS = {
 
 @cache
 def leaning() -> Instrument:
-    more = 'height = "0.03 m"\ndirection = [0.2, 0.9, 0.3]\n'
-    places = [
-        sheets.accelerometer("A1", 10.0, 1, "G_out", more),
-        sheets.accelerometer("A2", 200.0, 1, "G_out", 'radius = "0.12 m"\n'),
-        sheets.accelerometer("A3", 100.0, -1, "G_out", "direction = [0, -1, 0]\n"),
-    ]
     head = '[model]\nkinematics = "full"\norder = { second_order_angles = true }\n'
-    return parse_instrument(sheets.sheet([sheets.disc("A", places, (0.6, 0.48, 0.64))], 3, head))
+    return parse_instrument(sheets.sheet([sheets.leaning((0.6, 0.48, 0.64))], 3, head))
 
 
 def left(model: Model, flight: Flight, p: NDArray[np.float64]) -> float:
@@ -214,71 +209,3 @@ def test_an_effect_of_a_direction_is_the_reference_s(id_: str) -> None:
     without = left(base(), flight, make_vector(base(), i))
     assert without > 0.1
     assert left(model, flight, p) < max(WITH_DIRECTIONS[id_] * without, 1e-4)
-
-
-N = 4
-GATES = {"oblique": 3e-6, "umbrella": 1e-6, "odd": 1e-4}
-"""Eo, as of the paper's layout (tests/generated) where the places balance: elsewhere half a unit in the last place of a recorded force is
-worth 5e-5 Eo."""
-
-SEEN = (*(c.name for c in MOTION), "d_spin_angle", "d2_spin_angle")
-"""Channels, in the order in which the 50 digits take them."""
-
-
-def draw_inputs(chain_inputs: tuple[str, ...]) -> np.ndarray:
-    rng = np.random.default_rng(2)
-    size = {"a": 1.0, "omega": 1e-3, "omegadot": 1e-3, "Gamma": 1e-6, "d": 1.5, "d2": 0.1}
-    return np.stack([rng.standard_normal(N) * size[n.split("_")[0]] for n in chain_inputs])
-
-
-def true_outputs(
-    i: Instrument, chain: Any, p: NDArray[np.float64], phi: NDArray[np.float64], x: NDArray[np.float64]
-) -> NDArray[np.object_]:
-    """(outputs, N) at 50 digits: the channels as they are, the places as the sheet writes them."""
-    turns = layouts.constants(i.layout)
-    exact = i.form.preset == "exact"
-    found = np.empty((len(i.layout.outputs), len(phi)), dtype=object)
-    for k, o in enumerate(i.layout.outputs):
-        d = i.layout.discs[o.disc]
-        axes = [fifty.exact(np.array(u)) for u in (*d.across, d.axis)]
-        for n in range(len(phi)):
-            seen = fifty.in_axes(fifty.exact(x[:15, n]), axes)
-            spin = fifty.exact(x[15:, n]) if i.form.kinematics == "full" else [fifty.real(0)] * 2
-            found[k, n] = fifty.real(0)
-            for j, sign in zip(o.members, o.signs, strict=True):
-                place = i.layout.places[j]
-                names = (n for n, _ in chain.PARAMETERS)
-                q = dict(zip(names, fifty.exact(chain.values_of(j, p)), strict=True))
-                turn = [[turns.get(f"turn_{a}{b}_j", UPRIGHT[a][b])[j] for b in range(3)] for a in range(3)]
-                at = fifty.Place(
-                    height=fifty.real(place.height),
-                    turn=[fifty.exact(np.array(row)) for row in turn],
-                    spin=(spin[0], spin[1]),
-                    exact=exact,
-                )
-                degrees = fifty.real(round(np.degrees(place.angle), 6))
-                psi = fifty.real(float(phi[n])) + degrees * fifty.CONTEXT.pi / 180
-                found[k, n] += sign * fifty.voltage(q, q["radius"], psi, seen, at)
-    return found
-
-
-UPRIGHT = [[np.full(12, float(a == b)) for b in range(3)] for a in range(3)]
-
-
-@pytest.mark.parametrize(
-    ("name", "head"), [("oblique", sheets.EXACT), ("odd", sheets.EXACT), ("umbrella", "")]
-)
-def test_round_off_against_fifty_digits(name: str, head: str) -> None:
-    """With 1 g in all directions."""
-    i = instrument(name, head)
-    model, _ = derive.derived((), (), i.form, i.layout)
-    order = [model.chain.INPUTS.index(n) for n in SEEN if n in model.chain.INPUTS]
-    p, x = make_vector(model, i), draw_inputs(model.chain.INPUTS)
-    x[:3] *= 9.8
-    t, phi = np.arange(N) / 16.0, np.random.default_rng(3).uniform(-3, 3, N)
-    true = true_outputs(i, model.chain.module, p, phi, x[order])
-    for k in range(len(i.layout.outputs)):
-        for chain in (model.chain, replace(model.chain, sources={})):
-            found = chain.output(t, x, p, phi, which=k)
-            gap = [abs(float(fifty.real(float(g)) - v)) for g, v in zip(found, true[k], strict=True)]
-            assert max(gap) / scale_factor(model, p, k) < GATES[name]

@@ -6,7 +6,7 @@ import dataclasses
 import re
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -38,8 +38,8 @@ from ragg_runtime.signals.demodulators import COMPONENTS, Demodulator, tensor
 from tests.layouts import sheets
 from tests.layouts.sheets import flown_by
 from tests.layouts.test_layouts_physics import instrument
-from tests.rate import RATE
 from tests.runtime.test_export import make_strictly
+from tests.simulated import RATE
 
 
 def test_two_discs_are_refused() -> None:
@@ -136,6 +136,13 @@ def true_tensor(flight: Flight) -> NDArray[np.float64]:
     return np.array([[six["".join(sorted((i, k)))] for k in "xyz"] for i in "xyz"])
 
 
+def require_sure(scores: Sequence[NDArray[np.float64]]) -> None:
+    """Errors over their stated standard deviations, one every two seconds: some 1,100 values, half of them independent."""
+    z = np.concatenate([x[:: int(2 * RATE)] for x in scores])
+    assert 0.6 < np.mean(np.abs(z) < 1.0) < 0.76
+    assert 0.91 < np.mean(np.abs(z) < 1.96) < 0.98
+
+
 @pytest.mark.parametrize(("which", "kind"), [("umbrella", "self"), ("complements", "crossed")])
 def test_channels_of_every_output_are_as_sure_as_they_say(which: str, kind: Kind) -> None:
     """Against the gradient that was flown over, by axes that are computed here."""
@@ -155,36 +162,30 @@ def test_channels_of_every_output_are_as_sure_as_they_say(which: str, kind: Kind
         assert np.mean(good) > 0.9
         for name, true in (("inline", inline), ("cross", cross)):
             z = (found[f"{name}{end}"] - low_passed(x.demodulator, true)) / found[f"{name}{end}_std"]
-            scores.append(z[good][:: int(2 * RATE)])
-    z = np.concatenate(scores)
-    assert 0.6 < np.mean(np.abs(z) < 1.0) < 0.76  # of some 1,100 values, half of them independent
-    assert 0.91 < np.mean(np.abs(z) < 1.96) < 0.98
+            scores.append(z[good])
+    require_sure(scores)
 
 
 def test_three_discs_give_the_tensor() -> None:
     _, flight = flight_of("umbrella")
     _, channels, found = compensated("umbrella", "self")
-    assert [c for c in found if c.startswith("Gamma_x")] == [
-        "Gamma_xx", "Gamma_xy", "Gamma_xz", "Gamma_xx_std", "Gamma_xy_std", "Gamma_xz_std",
-    ]  # fmt: skip
+    assert {f"Gamma_{c}{end}" for c in COMPONENTS for end in ("", "_std")} <= {*found}
     G = true_tensor(flight)
     good = np.isfinite(found["Gamma_xx"])
     scores = []
     for c in COMPONENTS:
         true = low_passed(channels[0].demodulator, G["xyz".index(c[0]), "xyz".index(c[1])])
-        scores.append(((found[f"Gamma_{c}"] - true) / found[f"Gamma_{c}_std"])[good][:: int(2 * RATE)])
-    z = np.concatenate(scores)
-    assert 0.6 < np.mean(np.abs(z) < 1.0) < 0.76
+        scores.append(((found[f"Gamma_{c}"] - true) / found[f"Gamma_{c}_std"])[good])
+    require_sure(scores)
     trace = found["Gamma_xx"] + found["Gamma_yy"] + found["Gamma_zz"]
     assert np.nanmax(np.abs(trace)) < 1e-6
     assert 0.7 < np.std(found["closure"][good]) < 1.4
 
 
 def test_two_complements_give_no_tensor() -> None:
-    assert list(compensated("complements", "crossed")[2]) == [
-        "inline_A", "cross_A", "inline_A_std", "cross_A_std", "quality_A",
-        "inline_B", "cross_B", "inline_B_std", "cross_B_std", "quality_B",
-    ]  # fmt: skip
+    names = ("inline", "cross", "inline_{}_std", "cross_{}_std", "quality")
+    expected = [n.format(disc) if "{" in n else f"{n}_{disc}" for disc in "AB" for n in names]
+    assert list(compensated("complements", "crossed")[2]) == expected
 
 
 def test_a_disc_that_stands_still_is_left_out_and_alone_refused() -> None:

@@ -16,7 +16,7 @@ from ragg_runtime.cli.main import main
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion, scenario
 from ragg_runtime.signals.demodulators import Demodulator
-from tests.rate import RATE
+from tests.simulated import RATE
 
 DURATION = 900.0
 """s"""

@@ -32,8 +32,8 @@ from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulators import CORNER, DEMODULATORS, ORDER, find_demodulator
-from tests.rate import RATE
 from tests.runtime.flown_twice import BRIEF, DURATION, files, flights, new_model, run, truth
+from tests.simulated import RATE
 
 
 @pytest.fixture(scope="module")

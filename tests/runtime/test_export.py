@@ -21,8 +21,8 @@ from ragg_runtime.compensation.recursive import UPDATE
 from ragg_runtime.io import read_flight, write_flight
 from ragg_runtime.model.model import evaluate_output, make_vector, scale_factor
 from ragg_runtime.model.record import record
-from tests.rate import RATE
 from tests.runtime.flown_twice import BRIEF, files, flights, new_model, run
+from tests.simulated import RATE
 
 Array = NDArray[np.float64]
 

@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from ragg_runtime.api import example
 from ragg_runtime.estimation.fitted import FITTED_BLOCKS, estimate_variance, fit
 from ragg_runtime.estimation.observation import BLOCKS, observe, observe_flights
-from ragg_runtime.estimation.regressors import Column, list_base_columns
 from ragg_runtime.estimation.scores import DISTINGUISHABLE
-from ragg_runtime.identification import claims, likelihood_ratio, omnibus, selection, strong
+from ragg_runtime.identification import claims, selection, strong
 from ragg_runtime.identification.claims import Regression
 from ragg_runtime.identification.comparison import compare
 from ragg_runtime.identification.diagnose import diagnose
@@ -24,13 +23,11 @@ from ragg_runtime.identification.ranking import list_not_testable
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
-from ragg_runtime.model.derive import with_effects
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulators import demodulate
 from ragg_runtime.simulate import simulate_flight
-from tests.rate import RATE
-from tests.runtime.diagnosed import diagnosed
+from tests.simulated import RATE, diagnosed
 
 Array = NDArray[np.float64]
 
@@ -233,15 +230,6 @@ def regression(sizes: Array, *, further: int = 0) -> Regression:
     return Regression((tuple(blocks),), np.zeros(2 + further), np.zeros(2 + further), effects)
 
 
-def test_a_strong_effect_is_tested_with_all_coefficients_that_it_needs() -> None:
-    size = np.diag([10.0, 10.0, 1.0])
-    own = [(k, Column("e.x", k + 1, 1.0, "1", 1.0, "e")) for k in range(2)]
-    for second, needed in ((30.0, (0, 1)), (1.0, (0,))):  # beside a thousand sigma
-        size[:, -1] = 1000.0, second, 70.0
-        t = likelihood_ratio.test(size, own, np.zeros(3), freedom=1000.0)
-        assert (t.which, t.rank, t.chi2) == (needed, len(needed), pytest.approx(1e6 + (second > 1.0) * 900.0))
-
-
 def test_held_out_blocks_speak_for_what_is_there_and_against_what_is_not() -> None:
     fitted = np.isin(np.arange(BLOCKS), FITTED_BLOCKS)
     assert claims.weigh_held_out(regression(np.full(BLOCKS, 2.0)), "e") > 5.0
@@ -250,25 +238,3 @@ def test_held_out_blocks_speak_for_what_is_there_and_against_what_is_not() -> No
     # coefficients that nothing excites cost a claim nothing
     few, many = (claims.weigh_held_out(regression(np.full(BLOCKS, 2.0), further=n), "e") for n in (0, 12))
     assert many == pytest.approx(few, abs=3.0)
-
-
-def test_coefficients_that_are_held_are_not_fitted() -> None:
-    s = scenario(57, duration=10.0)
-    extended = with_effects(s.sheet, load_packaged(), ["cubic-input"])
-    labels = [c.label for c, _ in list_base_columns(extended, s.sheet) if c.effect]
-    held = replace(s.sheet, held=frozenset(labels[1:]))
-    assert [c.label for c, _ in list_base_columns(extended, held) if c.effect] == labels[:1]
-
-
-def test_a_strong_term_leaves_but_noise_once_the_model_is_fitted_again_beside_it() -> None:
-    s, derived = scenario(3, duration=120.0, rate=8.0, trim="table-v"), load_packaged()
-    sim = s.simulate()
-    flight, rate = sim.flight(), sim.channels["omega_z"]
-    size = 100.0 * np.std(sim.G_out - sim.G_out_noise_free) / np.std(rate)
-    changed = flight.outputs["G_out"] + size * rate
-    f = fit(derived, s.sheet, observe_flights([replace(flight, outputs={"G_out": changed})], s.sheet))
-    (searched,) = omnibus.search_residual(f).searches
-    term = searched.steady[0]
-    assert (term.term.harmonic, term.term.product) == ("const", "omega_z") and term.chi2 > 1e5
-    left = claims.fit_beside(f, term)
-    assert left is not None and left < 1.15 * len(flight)

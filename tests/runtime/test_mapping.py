@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import cli
-from ragg_runtime.instrument.units import RawQuantity, Units, read_quantity, units
+from ragg_runtime.instrument.units import Units, units
 from ragg_runtime.io import Flight, read_flight, read_flights, write_flight
 from ragg_runtime.io.draft import draft_mapping
 from ragg_runtime.io.files import read_recordings
@@ -347,17 +347,6 @@ def test_conversions(unit: str, si_unit: str, expected: float) -> None:
     assert units(9.8).to_si(1.0, unit, si_unit) == pytest.approx(expected, rel=1e-14)
 
 
-@pytest.mark.parametrize(
-    ("unit", "si_unit"), [("m", "s"), ("gram", "m/s^2"), ("ug/g^2", "m/s^2"), ("1", "V")]
-)
-def test_wrong_dimension_names_both(unit: str, si_unit: str) -> None:
-    with pytest.raises(UserError, match="wrong dimension") as caught:
-        units(9.8).to_si(1.0, unit, si_unit, "model.toml: [disc] radius")
-    assert all(x in str(caught.value) for x in ("model.toml: [disc] radius", repr(unit), repr(si_unit)))
-    with pytest.raises(UserError, match="frequency"):  # which is no angular rate
-        units(9.8).to_si(1.0, "Hz", "rad/s")
-
-
 NO_UNITS = (
     *("furlogn", "m+s", "m;s", "2 m", "m 2", "m^", "m^^2", "m**n", "(m", "m)", "m/", "'m'", "m s^", "m^-", "//"),
     *("9**9**9", "m**9**9**9", "m^1e400", "m^99", "m" * 200, "__import__('os')", "lambda: 0", "m\x00"),
@@ -375,49 +364,6 @@ def test_what_is_no_unit(unit: str) -> None:
 def test_any_text_is_a_unit_or_a_user_error(text: str) -> None:
     with contextlib.suppress(UserError):
         assert units(9.8).base_unit(text)
-
-
-@pytest.mark.parametrize(
-    ("raw", "expected"),
-    [
-        ("0.1 m", RawQuantity(0.1, "m")),
-        ("1e9ohm", RawQuantity(1e9, "ohm")),
-        (" -2.5e-3  ug/g^2 ", RawQuantity(-0.0025, "ug/g^2")),
-        ("3 1", RawQuantity(3.0, "1")),
-        ("0,1 m", RawQuantity(0.1, "m")),
-        ({"value": 3, "unit": "s"}, RawQuantity(3.0, "s")),
-        ({"value": [1, 2.5, 0, -4], "unit": "um"}, RawQuantity((1.0, 2.5, 0.0, -4.0), "um")),
-    ],
-)
-def test_quantities(raw: object, expected: RawQuantity) -> None:
-    assert read_quantity(raw, "", count=4) == expected
-
-
-@pytest.mark.parametrize(
-    ("raw", "what"),
-    [
-        (5, "unit is missing"),
-        ("5", "unit is missing"),
-        ({"value": 5, "unit": 3}, "unit is not a text"),
-        ({"value": 5, "unit": "m", "std": 1}, "not a quantity"),
-        ("m", "not a quantity"),
-        ("1.2.3 m", "not a quantity"),
-        (True, "not a quantity"),
-        ([1, 2, 3, 4], "not a quantity"),
-        ({"value": [1, 2, 3], "unit": "m"}, "wrong number of values"),
-        ({"value": [1, 2, 3, "4"], "unit": "m"}, "not a number"),
-        ({"value": math.nan, "unit": "m"}, "not finite"),
-        ({"value": [1, 2, math.inf, 4], "unit": "m"}, "not finite"),
-        ("1e999 m", "not finite"),
-        ("1 furlogn", "not a unit"),
-        ("1,234 m", "not a unit"),  # a thousand, or one?
-    ],
-)
-def test_what_is_no_quantity(raw: object, what: str) -> None:
-    with pytest.raises(UserError, match=what) as caught:
-        units(9.8).parse(read_quantity(raw, "f.toml: here", count=4).unit, "f.toml: here")
-    assert caught.value.where == "f.toml: here"
-    assert caught.value.found is not None
 
 
 def test_message_holds_every_fact_and_travels_between_processes() -> None:

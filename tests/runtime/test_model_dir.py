@@ -22,8 +22,6 @@ from derive import pipeline
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import locked
-from ragg_runtime.estimation import observation
-from ragg_runtime.estimation.regressors import linearise, list_candidate_columns, make_point
 from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.model import chain as compiler
 from ragg_runtime.model import derive
@@ -38,8 +36,7 @@ from ragg_runtime.model.directory import (
     load_model_dir,
     replace_model_dir,
 )
-from ragg_runtime.model.model import load_packaged, make_vector
-from ragg_runtime.reference.scenario import scenario
+from ragg_runtime.model.model import load_packaged
 from tests.generated import draws
 
 MODEL = """# state {n}
@@ -413,25 +410,6 @@ ONE = {"one.c": "int one(void) { return 1; }\n"}
 def compiling(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("RAGG_NATIVE", raising=False)
     _say_once.cache_clear()
-
-
-@needs_compiler
-@pytest.mark.usefixtures("compiling")
-def test_fits_in_machine_code_are_those_in_numpy() -> None:
-    """But for rounding."""
-    s = scenario(63, duration=60.0)
-    flight = s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}).flight()
-    packaged, o = load_packaged(), observation.observe(flight, s.sheet)
-    without = {n: replace(getattr(packaged, n), sources={}) for n in ("chain", "signatures")}
-    c, n = (
-        linearise(make_point(m, s.sheet, make_vector(m, s.sheet), list_candidate_columns(m, s.sheet)), o)
-        for m in (packaged, replace(packaged, **without))
-    )
-    assert packaged.chain.library is not None
-    assert packaged.signatures.library is not None
-    size = np.max(np.abs(n), axis=2, keepdims=True)
-    assert np.sum(size > 0.0) > 150
-    assert np.all(np.abs(c - n) <= 1e-9 * size)
 
 
 @pytest.mark.usefixtures("compiling")

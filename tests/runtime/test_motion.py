@@ -58,12 +58,6 @@ def test_lost_rates_are_predicted_from_those_beside_them() -> None:
     assert np.array_equal(predict_missing(x, ~there), bridge_gaps(x, ~there, smooth=True))
 
 
-def test_gaps_cost_little_of_short_runs() -> None:
-    x = np.sin(np.arange(1000) / 5.0)
-    x[::50] = np.nan
-    assert np.mean(differentiate_rate(x, 16.0)[1]) > 0.7
-
-
 def test_the_error_of_a_derived_acceleration_is_part_of_the_noise_and_accuses_nothing() -> None:
     """Of an instrument off its sheet, sampled slowly: the error stands in a narrow band at the top, and beside the ends."""
     s = scenario(7000, trim="table-v", duration=450.0, rate=8.0)

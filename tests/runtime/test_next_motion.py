@@ -26,7 +26,7 @@ from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.motion import MotionSignals, Sinusoids
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.simulate import simulate_flight
-from tests.rate import RATE
+from tests.simulated import RATE
 
 LAG = {"lag": {"tau": [2e-9, 0, 0, 0]}}
 PAIRS = [("lag", "time-offset"), ("lag", "arm-stretch")]

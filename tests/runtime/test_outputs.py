@@ -11,7 +11,9 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -21,15 +23,19 @@ import commands
 import numpy as np
 import pytest
 
+from benchmarks.diagnosis.plan import model_text
 from ragg_runtime import api
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import COMMANDS, cli, main
-from ragg_runtime.io import write_flight
+from ragg_runtime.io import Flight, write_flight
+from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.report.pages import render_page
+from ragg_runtime.screening import timing
 from ragg_runtime.simulate import simulate_flight
 from ragg_runtime.wording.sections import Bar, Bars, Section
 from ragg_runtime.workspace import Source
+from tests.simulated import RATE
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="devices, links and pipes of Unix")
 
@@ -279,3 +285,106 @@ def test_no_summary_is_cut_off() -> None:
     shown = cli.get_help(context)
     assert "\n  derive " not in shown
     assert [x for x in ("Model:", "Flights:", "After:", "Tools:") if x not in shown] == []
+
+
+Change = Callable[[np.ndarray], np.ndarray]
+
+
+@cache
+def good(duration: float = 200.0, rate: float = RATE) -> Scenario:
+    return scenario(48, duration=duration, rate=rate)
+
+
+# --- bad and awkward inputs that users meet ---
+
+
+@pytest.fixture
+def good_model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A good model directory in the current folder."""
+    monkeypatch.chdir(tmp_path)
+    Path("sheet.toml").write_text(model_text(good().sheet))
+    api.new("model", "sheet.toml")
+
+
+def fly(name: str = "flight.csv", outputs: Change | None = None, lacking: str = "no channel") -> None:
+    x = good().simulate().flight()
+    kept = {n: v for n, v in x.channels.items() if n != lacking}
+    write_flight(
+        replace(x, channels=kept, outputs={n: (outputs or np.array)(v) for n, v in x.outputs.items()}), name
+    )
+
+
+def cut_out() -> None:
+    x = good().simulate().flight().part(slice(37, None))
+    write_flight(replace(x, time=x.time - x.time[0], began=None), "flight.csv")
+
+
+def exchange() -> None:
+    x = good().simulate().flight(voltages=True)
+    order = {"V_1": "V_1", "V_2": "V_3", "V_3": "V_2", "V_4": "V_4"}
+    write_flight(replace(x, outputs={n: x.outputs[o] for n, o in order.items()}), "flight.csv")
+
+
+def ask_for(effect: str) -> None:
+    path = Path("model/model.toml")
+    path.write_text(re.sub(r"(?m)^effects = .*$", f'effects = ["{effect}"]', path.read_text()))
+    fly(lacking="temperature")
+
+
+def two_flights() -> None:
+    fly()
+    fly("second.csv", lambda v: -v)
+
+
+TABLE: Mapping[str, tuple[Callable[[], object], str, tuple[str, ...]]] = {
+    "an unknown effect": (lambda: ask_for("thermal-scal"), "flight.csv", ("did you mean", "thermal-scale")),
+    "an effect whose channel the flight lacks": (
+        lambda: ask_for("thermal-scale"), "flight.csv", ("thermal-scale", "temperature", "flight.csv", "ragg remove"),
+    ),
+    "a pipe": (lambda: os.mkfifo("p.csv"), "p.csv", ("p.csv", "regular file")),
+    "cut out, its time set to zero": (cut_out, "flight.csv", ("likely mistake", "cut out", "spin_angle")),
+    "an output that does not change": (
+        lambda: fly(outputs=lambda v: np.full_like(v, 1.5)), "flight.csv", ("'G_out'", "does not change", "disconnected"),
+    ),
+    "V_2 and V_3 exchanged": (exchange, "flight.csv", ("likely mistake", "V_2 and V_3 are exchanged")),
+    "the second of two flights": (
+        two_flights, "flight.csv second.csv", ("second.csv", "likely mistake", "the sign of G_out is reversed", "-1"),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.usefixtures("good_model")
+@pytest.mark.parametrize("name", TABLE)
+def test_bad_input_is_one_message_and_changes_nothing(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    make, flights, facts = TABLE[name]
+    if "time" not in name:  # no mistake of time is looked for, which takes most of the search
+        monkeypatch.setattr(timing, "propose_times", lambda *_: [])
+    make()
+    before = {p: p.read_bytes() for p in Path("model").rglob("*") if p.is_file()}
+    done = commands.ragg("compare", "model", *flights.split())
+    said = "\n".join(x for x in done.stderr.splitlines() if not x.startswith("... "))  # without progress
+    assert (done.returncode, done.stdout) == (2, "")
+    assert [f for f in facts if f not in said] == [], said
+    assert len(re.findall(r"^(ragg: |Usage: )", said, re.MULTILINE)) == 1 and "Traceback" not in said
+    assert len(said) < 3000
+    assert {p: p.read_bytes() for p in Path("model").rglob("*") if p.is_file()} == before
+
+
+@pytest.mark.usefixtures("good_model")
+def test_the_hidden_effect_is_found_beside_spikes_and_blanks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Spikes in one sample of a hundred, and gaps in the motion alone."""
+    monkeypatch.setattr(timing, "propose_times", lambda *_: [])
+    x: Flight = good(300.0, 16.0).simulate({"thermal-scale": {"dK1_dT": [0.0, 0.0, 2e-7, 0.0]}}).flight()
+    rng, blank = np.random.default_rng(7), (np.arange(len(x)) // 100) % 12 == 5
+    size, hit = 5 * np.std(x.outputs["G_out"]) * rng.choice([-1.0, 1.0], len(x)), rng.random(len(x)) < 0.01
+    motion = {n: np.where(blank, np.nan, v) for n, v in x.channels.items() if re.match("a_|omega_", n)}
+    channels = {n: v for n, v in x.channels.items() if "dot" not in n} | motion
+    write_flight(
+        replace(x, channels=channels, outputs={"G_out": x.outputs["G_out"] + size * hit}), "flight.parquet"
+    )
+    m = api.load("model")
+    d = api.diagnose(m, api.read_flights(m, ["flight.parquet"]))
+    assert (d.verdict, d.found) == ("missing-effect", ("thermal-scale",))
+    assert d.after.rms_Eo == pytest.approx(4.04, rel=0.02)  # the noise, as on the clean record
+    value = {p.accelerometer: p.value for p in d.ranking[0].parameters}
+    assert value[3] - value[4] == pytest.approx(2e-7, rel=0.02)  # what G_out sees of A3 and A4

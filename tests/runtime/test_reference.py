@@ -7,7 +7,6 @@ At phi = 0 the input, output and pendulous axes of A1 are +y, +x and -z of the m
 from __future__ import annotations
 
 from dataclasses import replace
-from decimal import Decimal, getcontext
 from types import MappingProxyType
 from typing import Any
 
@@ -15,17 +14,16 @@ import mpmath
 import numpy as np
 import pytest
 import sympy as sp
-from scipy.integrate import quad
 from scipy.signal import welch
+from scipy.spatial.transform import Rotation
 
-from derive.effects import catalogue
 from derive.effects.quantisation import quantisation
 from ragg_runtime import api, reference
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
-from ragg_runtime.instrument.units import RawQuantity, units
+from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import Flight
 from ragg_runtime.model import derive
 from ragg_runtime.model.memory import add_responses, first_memories
@@ -42,13 +40,14 @@ from ragg_runtime.reference import (
 )
 from ragg_runtime.reference.effects import EffectValues, resolve
 from ragg_runtime.reference.effects.force import gravity_tensor
-from ragg_runtime.reference.gravity import G, Gradient, PointMass
-from ragg_runtime.reference.motion import RecordedSignal, Signal, recorded_motion, turns
+from ragg_runtime.reference.geometry import Taylor, carried
+from ragg_runtime.reference.gravity import Gradient, PointMass
+from ragg_runtime.reference.motion import RecordedSignal, recorded_motion, turns
 from ragg_runtime.reference.scenario import SHAPES, perfect, scenario, trimmed, turbulence
 from ragg_runtime.reference.simulate import Noise, eotvos_noise
 from ragg_runtime.signals.demodulators import demodulate
 from ragg_runtime.simulate import simulate_flight
-from tests.rate import RATE as SLOW
+from tests.simulated import RATE as SLOW
 
 RATE = 16.0
 DEG_PER_HOUR = np.pi / 180 / 3600
@@ -119,19 +118,26 @@ def test_turns_agree_with_arbitrary_precision_after_ten_days(frequency: float) -
 
 HUNDRED = np.random.default_rng(3).standard_normal(400) * np.hanning(400)
 RECORDED = RecordedSignal(np.arange(400) / 8, HUNDRED)
-SINES = Sinusoids(0.7, [1.0, 0.4, 0.2], [0.11, 0.63, 1.2], [0.1, 2.0, 4.0])
 
 
-@pytest.mark.parametrize("signal", [SINES, RECORDED], ids=["sinusoids", "recorded"])
-def test_rate_integrates_to_the_value_and_a_shift_is_another_instant(signal: Signal) -> None:
-    begin, end = signal.value(np.array([20.013, 20.31]))
-    rate = lambda t: float(signal.rate(np.array([t]))[0])  # noqa: E731
-    integral = quad(rate, 20.013, 20.31, points=[20.125, 20.25], epsabs=1e-13)[0]
-    assert integral == pytest.approx(end - begin, abs=1e-11)
-    t = 10 + np.arange(100) / 16
-    for shift in (0.4, 1e-2, -0.03):
-        np.testing.assert_allclose(signal.value(t, shift), signal.value(t - shift), rtol=0, atol=2e-13)
-        np.testing.assert_allclose(signal.rate(t, shift), signal.rate(t - shift), rtol=0, atol=2e-12)
+def test_what_a_turning_platform_carries_is_accelerated_as_its_positions_say() -> None:
+    """Full kinematics (Euler, Coriolis and centrifugal) of a tumbling platform, by differences of positions in inertial space."""
+    step, n = 1e-2, np.arange(-3, 4)
+    t = 0.7 + step * n
+    angles = np.stack([0.4 * t + 0.1 * np.sin(3 * t), 0.2 * np.cos(2 * t), 0.2 * np.sin(t) - 0.5 * t], axis=1)
+    A = Rotation.from_euler("ZYX", angles).as_matrix()  # to inertial space
+    r = np.stack([np.sin(2 * t), t**3 / 5, np.exp(-t) * np.cos(t)], axis=1)
+    weights = (
+        np.array([-1, 9, -45, 0, 45, -9, 1]) / 60 / step,
+        np.array([2, -27, 270, -490, 270, -27, 2]) / 180 / step**2,
+    )
+    along = Taylor(r[3][:, None], *((w @ r)[:, None] for w in weights))
+    turning, changing = (A[3].T @ np.tensordot(w, A, 1) for w in weights)
+    omega, omegadot = (
+        np.array([[W[2, 1]], [W[0, 2]], [W[1, 0]]]) for W in (turning, (changing - changing.T) / 2)
+    )
+    expected = A[3].T @ (weights[1] @ np.einsum("nij,nj->ni", A, r))
+    np.testing.assert_allclose(carried(along, omega, omegadot)[:, 0], expected, rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("noise", [Noise(omega_T=2e-14), Noise(1e-15, 1.0), Noise(3e-16, 1.7, 1e-15)])
@@ -196,50 +202,6 @@ def run(effects=None, instrument=None, motion=SHAKEN, duration=20.0, **options) 
 
 
 PLAIN = run()
-KNOWN = {(e.id, q.name): q for e in catalogue() for q in e.parameters}
-SHOWN: dict[str, dict[str, object]] = {
-    "saturation": {"V_max": 3.0},
-    "imu-saturation": {"a_max": 0.1, "omega_max": 1e-3},
-    "second-order-misalignment": {"kappa": 0.5},
-    "vibration-rectification": {"P_xy": 0.0, "P_xz": 0.0, "P_yz": 1e-3},
-    "vibration-level": {"L_xy": 0.0, "L_xz": 0.0, "L_yz": 0.0},
-}
-"""Values of effects that do not show at a plausible size, or are there at it."""
-RECORD_ONLY = {
-    "time-offset", "clock-drift", "imu-lever-arm", "imu-misalignment", "gyro-scale", "gyro-delay",
-    "gyro-bias",
-    "gyro-g-sensitivity", "imu-acceleration-scale", "imu-acceleration-bias", "imu-acceleration-misalignment",
-    "imu-saturation", "imu-filter", "imu-skew", "imu-acceleration-quadratic", "imu-thermal", "gyro-misalignment",
-    "mount-resonance",
-}  # fmt: skip
-OUTPUT_ONLY = {"saturation", "quantisation", "output-curve"}
-
-
-def plausible(effect: str) -> dict[str, object]:
-    """Values at which every parameter of the effect acts, in A2 only where each accelerometer has its own."""
-    values: dict[str, object] = {}
-    for name, parameter in CATALOGUE[effect].items():
-        q = KNOWN[effect, name]
-        size = float(units(9.8).to_si(q.plausible, q.unit, parameter.unit))
-        values[name] = [0, size, 0, 0] if parameter.per_accelerometer else size
-    return values | SHOWN.get(effect, {})
-
-
-@pytest.mark.parametrize("effect", CATALOGUE)
-def test_an_effect_changes_either_the_truth_or_the_record(effect: str) -> None:
-    """And nothing at all, bit for bit, where its values are neutral."""
-    neutral = run({effect: {name: parameter.neutral for name, parameter in CATALOGUE[effect].items()}})
-    np.testing.assert_array_equal(neutral.voltages, PLAIN.voltages)
-    np.testing.assert_array_equal(neutral.G_out, PLAIN.G_out)
-    assert all(np.array_equal(neutral.channels[name], x) for name, x in PLAIN.channels.items())
-    flight = run({effect: plausible(effect)})
-    same_voltages = np.array_equal(flight.voltages, PLAIN.voltages)
-    same_record = all(np.array_equal(flight.channels[name], v) for name, v in PLAIN.channels.items())
-    assert same_record == (effect not in RECORD_ONLY)
-    assert same_voltages == (effect in RECORD_ONLY | OUTPUT_ONLY)
-    assert np.array_equal(flight.G_out, PLAIN.G_out) == (effect in RECORD_ONLY)
-    if all(p.per_accelerometer for p in CATALOGUE[effect].values()):
-        np.testing.assert_array_equal(flight.voltages[[0, 2, 3]], PLAIN.voltages[[0, 2, 3]])
 
 
 @pytest.mark.parametrize("tau", [1e-9, 1e-3, 0.03])
@@ -307,22 +269,6 @@ def test_near_mass_is_what_newton_adds_to_the_gradient() -> None:
     values = resolve({"near-mass": T})["near-mass"]
     np.testing.assert_allclose(np.einsum("iij->j", gravity_tensor(values, 3)), 0, atol=1e-20)
     np.testing.assert_allclose(np.einsum("iijk->jk", gravity_tensor(values, 4)), 0, atol=1e-20)
-
-
-@pytest.mark.parametrize("site", [[1.2, 0.0, 0.0], [0.3, -0.9, 0.5], [-2000.0, 500.0, 900.0]])
-def test_attraction_beside_the_centre_keeps_full_precision(site: list[float]) -> None:
-    getcontext().prec = 60
-    r = np.array([0.07, -0.05, 1e-3])
-
-    def attraction(d: list[Decimal]) -> list[Decimal]:
-        cube = sum(v * v for v in d).sqrt() ** 3
-        return [Decimal(G) * 486 * v / cube for v in d]
-
-    s = [Decimal(v) for v in site]
-    at_r = attraction([v - Decimal(float(w)) for v, w in zip(s, r, strict=True)])
-    exact = np.array([float(a - b) for a, b in zip(at_r, attraction(s), strict=True)])
-    computed = PointMass(486.0, site).difference(np.zeros(1), r[:, None])[:, 0]
-    assert np.linalg.norm(computed - exact) < 1e-15 * np.linalg.norm(exact)
 
 
 def test_saturation_and_quantisation() -> None:

@@ -1,7 +1,8 @@
-"""Reports: what they say is what the physics says, and nothing in them can reach beyond the page."""
+"""Reports, notebooks and the terminal: what they say is what the physics says, and nothing in them can reach beyond the page."""
 
 from __future__ import annotations
 
+import contextlib
 import html
 import math
 import re
@@ -9,17 +10,23 @@ import warnings
 from dataclasses import dataclass, replace
 from functools import cache
 from html.parser import HTMLParser
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
+from test_reference_pages import PYTHON
 
+from ragg_runtime.api import Added
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.calibrate import list_combinations, list_parameters
 from ragg_runtime.estimation.fitted import predict_channel_noise
 from ragg_runtime.identification import comparison as compare
 from ragg_runtime.identification import result
+from ragg_runtime.identification.comparison import Comparison
+from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io import Flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.effects import EffectValues
@@ -28,11 +35,11 @@ from ragg_runtime.report import panels, plots
 from ragg_runtime.report.pages import write_addition, write_comparison, write_diagnosis
 from ragg_runtime.report.plots import draw_plot
 from ragg_runtime.signals.demodulators import demodulate
+from ragg_runtime.survey.result import Survey
 from ragg_runtime.wording import describe, numbers
-from ragg_runtime.wording.sections import Bar, Bars, render_text
+from ragg_runtime.wording.sections import Bar, Bars, render_notebook, render_text
 from ragg_runtime.workspace import Source
-from tests.rate import RATE
-from tests.runtime.diagnosed import diagnosed
+from tests.simulated import RATE, diagnosed
 
 HOSTILE = 'leg <script>alert("1")</script> & $\\frac{x}$ \u202e\x07\udcff'
 
@@ -152,6 +159,11 @@ def test_names_of_strangers_are_text(cubic: Case) -> None:
     assert "lag <i>" in added
     e = numbers.number(cubic.comparison.calibrated.rms_Eo)
     assert f"error {e} → {e} Eo" in added and "cubic-input" in added
+    known = describe.describe_comparison(cubic.comparison.as_json(), [HOSTILE])
+    known += describe.describe_model(HOSTILE, [HOSTILE], [])
+    notebook, terminal = render_notebook(known), render_text(known, verbose=True)
+    assert "<script" not in notebook and "&lt;script&gt;alert(" in notebook
+    assert not any(c in text for c in "\u202e\x07\udcff" for text in (notebook, terminal))
 
 
 @pytest.mark.usefixtures("no_figures")
@@ -288,3 +300,104 @@ def test_labels_in_figures_are_never_taken_for_mathematics() -> None:
     assert "certain" in text
     assert "b" * 60 not in text
     text.encode("utf-8")
+
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+@dataclass(frozen=True)
+class Result:
+    """The demonstration, step by step."""
+
+    before: Comparison
+    diagnosis: Diagnosis
+    step: Added
+
+
+@pytest.fixture(scope="module")
+def demonstration(tmp_path_factory: pytest.TempPathFactory) -> Result:
+    """README's Python as it is typed, on three minutes of the shipped flight."""
+    folder, made = tmp_path_factory.mktemp("display"), dict[str, Any]()
+    (folder / "examples").mkdir()
+    whole = pq.read_table(EXAMPLES / "demo-flight.parquet")
+    pq.write_table(whole.slice(0, 2880), folder / "examples" / "demo-flight.parquet")
+    with contextlib.chdir(folder):
+        exec(PYTHON, made)
+    assert made["analytical"] and made["simplified"]
+    return Result(made["step"].before, made["d"], made["step"])
+
+
+def test_the_python_of_readme_finds_what_is_missing(demonstration: Result) -> None:
+    assert demonstration.diagnosis.found == ("thermal-scale",)
+    assert demonstration.step.after is not None and demonstration.step.after.adequate
+
+
+def shown(x: Any) -> str:
+    """The text of a result's display, whose markup is checked."""
+    page = Page(x._repr_html_())
+    assert not page.open
+    return "\n".join(page.words)
+
+
+def test_the_terminal_and_a_notebook_say_the_same(demonstration: Result) -> None:
+    for x, said in (
+        (demonstration.before, describe.describe_comparison(demonstration.before.as_json(), ["m"])),
+        (demonstration.diagnosis, describe.describe_diagnosis(demonstration.diagnosis.as_json())),
+        (demonstration.step, describe.describe_addition(demonstration.step.as_json(), ["thermal-scale"])),
+    ):
+        text, lines = shown(x), render_text(said).split("\n")
+        assert lines[0] == numbers.to_ascii(said[0].sentences[0])
+        assert said[0].sentences[0] in text
+    assert "demo-flight" in shown(demonstration.before)
+    assert numbers.number(demonstration.step.after.calibrated.rms_Eo) in shown(demonstration.step.loaded)  # type: ignore[union-attr]
+
+
+def test_the_terminal_says_what_a_physicist_would(demonstration: Result) -> None:
+    """The verdict first, the determined combination, one noise floor, details on request."""
+    d = demonstration.diagnosis.as_json()
+    brief, full = (render_text(describe.describe_diagnosis(d), verbose=v) for v in (False, True))
+    assert brief.startswith("Missing: thermal-scale. With it the error falls from ")
+    assert "thermal-scale: D34 of dK1/dT = (" in brief
+    assert "D34 = A3 - A4" in brief
+    assert "(-v)" in brief and "(-v)" not in full
+    values: Any = demonstration.diagnosis.ranking[0].parameters
+    for q in values:
+        label = numbers.to_ascii(describe.label_parameter(q.as_json()))
+        assert label in full
+        assert label not in brief or abs(q.value) > q.std
+    assert "1e-2" not in brief and "< 1e-16" in brief
+    a = demonstration.step.as_json()
+    floors = [demonstration.before.as_json()["noise_floor"], a["before"]["noise_floor"]]  # type: ignore[index]
+    assert floors[0] == floors[1] == d["noise_floor"]
+    assert (a["before"]["adequate"], a["after"]["adequate"]) == (False, True)  # type: ignore[index]
+    assert set(a["after"]["noise_floor"]) == {"rms_Eo", "inline_Eo", "cross_Eo"}  # type: ignore[index]
+
+
+def test_every_verdict_has_its_sentence(demonstration: Result) -> None:
+    d = demonstration.diagnosis.as_json()
+    term = {"harmonic": "cos 2", "term": "a_x", "coefficient": 1.0, "std": 0.1, "unit": "V/(m/s^2)"}
+    term |= {"share": 0.5, "z": 10.0}
+    left: Any = dict(d["unexplained"]) | {"terms": [term]}  # type: ignore[call-overload]
+    partly = d | {"verdict": "partly-explained", "unexplained": left}
+    assert describe.write_verdict(partly).endswith(
+        ". Not yet explained: less than the noise, mostly at cos 2Ωt × a_x."
+    )
+    quiet = partly | {"noise_floor": dict(d["noise_floor"]) | {"rms_Eo": 1.0}}  # type: ignore[call-overload]
+    assert describe.write_verdict(quiet).endswith(" Eo, mostly at cos 2Ωt × a_x.")
+    nothing = d | {"verdict": "unexplained", "found": [], "unexplained": left}
+    assert describe.write_verdict(nothing).startswith("Unexplained: ")
+    assert "Not explained:" in render_text(describe.describe_diagnosis(nothing))
+    assert describe.write_verdict(d | {"verdict": "adequate"}).startswith("Adequate: ")
+    failed = describe.write_verdict(d | {"converged": False, "remark": "stopped after"})
+    assert failed == "No verdict: stopped after."
+
+
+def test_a_survey_is_shown_flight_by_flight() -> None:
+    error = {k: {"rms_Eo": 8.0} for k in ("nominal", "calibrated", "holdout", "after", "after_holdout")}
+    common = {"file": "", "notes": [], "ranking": [], "not_testable": [], "parameters": []}
+    own = {"verdict": "missing-effect", "found": ["lag"], "indistinguishable": {"lag": []}, "error": error}
+    records = [common | own | {"flight": f"{k:03}", "noise_floor": {"rms_Eo": 2.5}} for k in range(100)]
+    text = shown(Survey(tuple(records)))
+    assert "100 flights: 100 missing an effect" in text
+    assert "recommended: add lag (needed by 100 of 100 flights)" in text
+    assert "and 40 more" in text

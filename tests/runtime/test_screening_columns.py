@@ -11,7 +11,7 @@ import pytest
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.io import Flight, read_flight, write_flight
-from ragg_runtime.io.assemble import derive_acceleration, interpolate_slow
+from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.io.sampling import find_clock_steps, fit_even_clock, make_grid
 from ragg_runtime.screening.readings import find_spikes, leave_out_glitches, leave_out_repeated
@@ -355,19 +355,6 @@ def test_a_record_that_lacks_half_of_its_samples_is_refused(name: str, hot: Flig
     with pytest.raises(UserError, match="most samples of the flight are incomplete") as refused:
         read_flight(path, G0)
     assert f"{name}: without a value" in refused.value.message
-
-
-def test_a_slow_channel_is_interpolated_where_its_values_tell() -> None:
-    t = np.arange(0.0, 1000.0, 10.0)
-    fine = np.arange(0.0, 989.0, 0.5)
-    slow = interpolate_slow(t, 290 + np.sin(2 * np.pi * t / 400), fine)
-    assert np.max(np.abs(slow - 290 - np.sin(2 * np.pi * fine / 400))) < 0.01
-    assert "fast" in str(interpolate_slow(t, np.sin(2 * np.pi * t / 30), fine))
-    assert "3 values" in str(interpolate_slow(t[:3], t[:3], fine))
-    holes = np.r_[t[:40], t[44:]]  # one gap of five steps, more than are bridged
-    at = np.array([-1.0, 0.0, 390.0, 395.0, 400.0, 425.0, 440.0, 990.0, 991.0])
-    slow = interpolate_slow(holes, 290 + holes / 1e3, at)
-    assert np.isnan(slow).tolist() == [True, False, False, True, True, True, False, False, True]
 
 
 def test_a_slow_channel_that_ends_early_does_not_take_the_record_with_it(hot: Flight, tmp_path: Path) -> None:

@@ -20,7 +20,7 @@ from benchmarks.diagnosis.plan import model_text
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import fitted, observation, thinning
 from ragg_runtime.estimation.noise import Level, LevelFactor
-from ragg_runtime.estimation.observation import BLOCKS, Observation, divide_into_segments, split_at_blocks
+from ragg_runtime.estimation.observation import Observation
 from ragg_runtime.estimation.regressors import (
     LinearisationPoint,
     linearise,
@@ -37,7 +37,7 @@ from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.mapping import parse_mapping
 from ragg_runtime.model import derive, model
-from ragg_runtime.model.model import evaluate_output, make_vector, scale_factor
+from ragg_runtime.model.model import make_vector, scale_factor
 from ragg_runtime.model.record import make_kernel, record
 from ragg_runtime.reference import disc_angle, simulate, still
 from ragg_runtime.reference.gravity import Gradient
@@ -45,7 +45,7 @@ from ragg_runtime.reference.scenario import Scenario, perfect, scenario
 from ragg_runtime.report import panels
 from ragg_runtime.signals.demodulators import demodulate, low_pass
 from ragg_runtime.signals.derivative import differentiate
-from tests.rate import RATE as SLOW
+from tests.simulated import RATE as SLOW
 
 Array = NDArray[np.float64]
 
@@ -249,12 +249,6 @@ def whole(flown: tuple[Scenario, Flight]) -> Observation:
     return observation.observe(flight, s.sheet)
 
 
-@pytest.fixture(scope="module")
-def thin(flown: tuple[Scenario, Flight], whole: Observation) -> Observation:
-    (found,) = thinning.thin_observations(model.load_packaged(), flown[0].sheet, [whole])
-    return found
-
-
 def thinned(sheet: Instrument, flight: Flight) -> Observation:
     (found,) = thinning.thin_observations(model.load_packaged(), sheet, [observation.observe(flight, sheet)])
     return found
@@ -268,28 +262,6 @@ def at_sheet(sheet: Instrument, *, with_candidates: bool = False) -> Linearisati
 
 def with_output(flight: Flight, further: NDArray[np.float64]) -> Flight:
     return replace(flight, outputs={n: x + further for n, x in flight.outputs.items()})
-
-
-def test_one_sample_in_twelve_is_kept_of_the_whole_record_after_a_low_pass(flown, whole, thin) -> None:
-    """Against the NumPy model along the recorded motion, and a sum over the taps for a few samples."""
-    m, sheet = model.load_packaged(), flown[0].sheet
-    assert thin.thin is not None and thin.thin.every == EVERY
-    taps = thin.thin.taps
-    first = len(taps) // 2
-    np.testing.assert_array_equal(
-        thin.record.time, whole.record.time[first:-first:EVERY][: len(thin.record.time)]
-    )
-    found = linearise(at_sheet(sheet), thin)[-1, 0]
-    full = whole.data[0] - evaluate_output(m.chain, whole.record, make_vector(m, sheet), whole.output)
-    for k in (0, 1, 1777, len(found) - 1):
-        expected = float(full[k * EVERY : k * EVERY + len(taps)] @ taps[::-1])
-        assert found[k] == pytest.approx(expected, rel=1e-9, abs=1e-9)
-    for every in thinning.EVERY:  # passes the motion and stops what would fold
-        taps = thinning.make_low_pass(every)
-        f = np.linspace(0, 0.5, 1001)  # of the sampling rate
-        gain = np.abs(np.cos(2 * np.pi * np.outer(f, np.arange(len(taps)) - len(taps) // 2)) @ taps)
-        assert np.max(np.abs(gain[f <= thinning.PASSED * 0.5 / every] - 1)) < 2e-5
-        assert np.max(gain[f >= thinning.STOPPED * 0.5 / every]) < 2e-5
 
 
 def test_the_diagnosis_is_that_of_the_whole_record(flown, whole) -> None:
@@ -310,7 +282,7 @@ def test_the_diagnosis_is_that_of_the_whole_record(flown, whole) -> None:
     assert d.ranking[0].test.chi2 == pytest.approx(chi2, rel=0.1)  # the slow noise is known to some per cent
 
 
-def test_what_thinning_takes_is_counted_as_noise(flown: tuple[Scenario, Flight], thin: Observation) -> None:
+def test_what_thinning_takes_is_counted_as_noise(flown: tuple[Scenario, Flight]) -> None:
     """White noise of known size on top of what the instrument makes: the floor is its root mean square over the whole band."""
     s, flight = flown
     loud = 3e-2
@@ -400,16 +372,6 @@ def test_beside_a_long_gap_motion_that_does_not_fit_is_not_fitted(flown, whole) 
         n - 2,
         n - 1,
     ]
-
-
-@pytest.mark.parametrize("samples", [24, 30000, 40000, 8_640_000])
-def test_segments_and_their_blocks_cover_a_flight_once(samples: int) -> None:
-    found = divide_into_segments(samples)
-    assert max(s.stop - s.start for s in found) <= 30000
-    blocks = [b for s in found for b in split_at_blocks(s, samples)]
-    for parts in (found, [rows for _, rows in blocks]):
-        assert [p.start for p in parts] == [0, *(p.stop for p in parts[:-1])] and parts[-1].stop == samples
-    assert sorted({b for b, _ in blocks}) == list(range(BLOCKS))
 
 
 def test_the_division_leaves_no_trace(long_flight, monkeypatch) -> None:

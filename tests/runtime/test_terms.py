@@ -26,8 +26,7 @@ from ragg_runtime.model import model as load
 from ragg_runtime.model.record import Record
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.reference.simulate import Simulation
-from tests.rate import RATE
-from tests.runtime.diagnosed import diagnosed
+from tests.simulated import RATE, diagnosed
 
 Array = NDArray[np.float64]
 

@@ -30,7 +30,7 @@ from ragg_runtime.identification.ranking import (
 from ragg_runtime.identification.selection import ProjectedProblem
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import scenario
-from tests.rate import RATE
+from tests.simulated import RATE
 
 Array = NDArray[np.float64]
 

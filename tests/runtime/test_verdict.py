@@ -33,8 +33,7 @@ from ragg_runtime.screening import screen
 from ragg_runtime.screening.motion_noise import predict_true
 from ragg_runtime.screening.screen import AT_REST, list_remarks
 from ragg_runtime.wording import describe
-from tests.rate import RATE
-from tests.runtime.diagnosed import diagnosed
+from tests.simulated import RATE, diagnosed
 
 G0 = 9.8
 

@@ -20,8 +20,6 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet as pq
 
-from ragg_runtime import api
-
 DEMO = Path(__file__).parents[2] / "examples" / "demo-flight.parquet"
 BRIEF = np.arange(0, 2 * 60 * 16, 2)
 """Rows of the flight, which pass for two minutes at 8 Hz."""
@@ -51,11 +49,6 @@ class Served:
             self.exchanged = c.get(self.address.removeprefix(self.origin))
             assert self.exchanged.status_code == 303
             yield c
-
-
-def new(model: Path) -> None:
-    """The instrument that the shipped flight was made with: the example's."""
-    api.new(model)
 
 
 def brief(flight: Path, start: int = 0) -> None:

@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from serving import Served, brief, foreign, new, served
+from serving import Served, brief, foreign, served
 
+from ragg_runtime import api
 from ragg_runtime.model.directory import load_model_dir
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -42,7 +43,7 @@ def browser() -> Iterator[Browser]:
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     folder = tmp_path_factory.mktemp("studio")
-    new(folder / "model")
+    api.new(folder / "model")
     flight = folder / f"{HOSTILE.replace('/', '')}.parquet"
     brief(flight)
     foreign(folder / "foreign.csv")

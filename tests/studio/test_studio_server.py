@@ -16,7 +16,7 @@ import httpx
 import numpy as np
 import pyarrow.csv
 import pytest
-from serving import Served, brief, compared, foreign, new, served, settled
+from serving import Served, brief, compared, foreign, served, settled
 
 from derive.effects import catalogue
 from ragg_runtime import api
@@ -77,7 +77,7 @@ def test_undo_and_redo_walk_along_a_branch() -> None:
 
 
 def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(tmp_path: Path) -> None:
-    new(tmp_path / "model")
+    api.new(tmp_path / "model")
     m = api.load(tmp_path / "model")
     path = tmp_path / "flight.csv"
     foreign(path)
@@ -127,7 +127,7 @@ def test_every_equation_of_the_catalogue_is_typeset() -> None:
 def test_names_of_several_lines_stay_in_the_comments_of_a_shell(tmp_path: Path) -> None:
     """commands.sh is run by hand: names of strangers' files, lines and folders stand in its comments, too."""
     evil = "x\ntouch PWNED\n#"
-    new(tmp_path / evil)
+    api.new(tmp_path / evil)
     m = api.load(tmp_path / evil)
     steps = (
         HistoryStep(action="add", time="", effect="lag", flights={evil: ""}),
@@ -157,7 +157,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def server(folder: Path) -> Iterator[Served]:
     model = folder / "model"
-    new(model)
+    api.new(model)
     flight = folder / "demo-flight.parquet"
     brief(flight)
     with served(model, flight) as s:

@@ -1,4 +1,4 @@
-"""A diagnosis of simulated flights under their sheet, with all that the catalogue can derive."""
+"""Simulated flights: the sampling rate that most of them have, and their diagnosis."""
 
 from __future__ import annotations
 
@@ -11,8 +11,11 @@ from ragg_runtime.io import Flight
 from ragg_runtime.model import derive
 from ragg_runtime.reference.scenario import Scenario
 
+RATE = 8.0
+"""Hz: the platform passes nothing of note above 2 Hz (reference/turbulence.py), so that sixteen samples a second tell no more."""
+
 
 def diagnosed(known: Scenario | Instrument, *flights: Flight) -> Diagnosis:
-    """``known``: the sheet, or a scenario that has one."""
+    """With all that the catalogue can derive. ``known``: the sheet, or a scenario that has one."""
     sheet = known.sheet if isinstance(known, Scenario) else known
     return diagnose(derive.load_model(sheet), sheet, flights, partial(derive.with_effects, sheet))
