@@ -71,9 +71,8 @@ def _made(app: Sphinx, config: Any) -> None:
     from derive import audit
     from derive.simplify.page import page as simplified
     from docs import made as build
-    from ragg_runtime.experiments.paper import write_page
-    from ragg_runtime.experiments.regular import repeat_dynamic, repeat_multifrequency
-    from ragg_runtime.experiments.turbulence import repeat_turbulence
+    from ragg_runtime.experiments import write_page
+    from ragg_runtime.experiments.repeat import repeat_dynamic, repeat_multifrequency, repeat_turbulence
 
     made = HERE / "_made"
     (made / "effects").mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,188 @@
-"""The three experiments of the paper's Section III, repeated: our numbers and the printed ones.
+"""The three experiments of the paper's Section III, repeated: what it prints (Tables VI to VIII), and how ours is set beside it.
 
-M. Yu and T. Cai, *Mathematic Model And Error Analysis of Moving-base Rotating Accelerometer Gravity Gradiometer*. Where
-the paper leaves an input open, the choice is said.
+M. Yu and T. Cai, *Mathematic Model And Error Analysis of Moving-base Rotating Accelerometer Gravity Gradiometer*. The instrument of
+Table V is ``ragg_runtime.reference.scenario.table_v``. Where the paper leaves an input open, the choice is said.
 """
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ragg_runtime.wording.sections import make_environment
+
+DEGREE_PER_HOUR = ARCSEC = np.pi / 180 / 3600
+
+
+@dataclass(frozen=True)
+class Printed:
+    """A number as the paper prints it: its digits, ``unit`` (empty for a pure number), section or table; ``order``: of
+    magnitude only.
+    """
+
+    text: str
+    unit: str
+    where: str
+    order: bool = False
+
+    @property
+    def value(self) -> float:
+        """The number."""
+        return float(self.text)
+
+    def matches(self, ours: float) -> bool:
+        """Whether ``ours`` has the printed digits, or the printed order of magnitude (a third of it up to ten times)."""
+        if self.order:
+            ratio = ours / self.value
+            return ratio > 0.0 and -0.5 <= math.log10(ratio) < 1.0
+        mantissa, _, exponent = self.text.partition("e")
+        decimals = len(mantissa.partition(".")[2])
+        return abs(ours - self.value) <= 0.5000001 * 10.0 ** (int(exponent or 0) - decimals)
+
+
+MASS = 486.0
+"""kg, Section III.A."""
+MASS_POSITION = (1.2, 0.0, 0.0)
+"""m, at the start."""
+MASS_RATE = (3600.0, 360.0, 0.0628)
+"""Angular rate of the mass: mean and amplitude in deg/h, and the angular frequency of the sine in rad/s."""
+
+TABLE_VI: Mapping[str, tuple[float, float]] = {
+    "a_x": (0.08, 0.005),
+    "a_y": (0.06, 0.006),
+    "a_z": (0.1, 0.05),
+    "omega_x": (1000, 700),
+    "omega_y": (1500, 900),
+    "omega_z": (2000, 800),
+}
+"""Constant and amplitude of sin(Omega t): g for a, deg/h for omega."""
+
+TABLE_VII = ((100.0, 10.0, 0.0, 0.0), (100.0, 10.0, 100.0, 50.0), (200.0, 10.0, 100.0, 50.0))
+"""Mean and standard deviation of a_z, mg, and of each angular rate, deg/h."""
+
+HORIZONTAL = 0.15
+"""Section III.C: rms of a_x and of a_y over that of a_z."""
+
+_VIII = """
+        M_in    M_cs    Ms_in   Ms_cs  sigma_in  sigma_cs  sigmas_in  sigmas_cs
+    1   -0.037  -0.0004 -0.080  0.033  0.062     0.031     0.11       0.052
+    2   -0.032  -0.001  -0.09   0.015  0.068     0.032     0.294      0.149
+    3   -0.145  -0.001  -0.253  0.134  0.064     0.029     0.556      0.281
+"""
+
+
+def table_viii(experiment: int, name: str) -> Printed:
+    """An entry of Table VIII, Eo, of experiment 1, 2 or 3: M and sigma of the analytical, Ms and sigmas of the simplified model."""
+    heads, *rows = (line.split() for line in _VIII.strip().splitlines())
+    return Printed(rows[experiment - 1][1 + heads.index(name)], "Eo", "Table VIII")
+
+
+K_GGI = Printed("4.54e-4", "V/Eo", "Section III.B")
+OUTPUT = Printed("1e5", "V", "Section III.B", order=True)
+MODEL_ERROR = Printed("1e-3", "V", "Section III.B", order=True)
+RELATIVE_ERROR = Printed("1e-8", "", "Section III.B", order=True)
+GRADIENT_VOLTAGE = Printed("1e-2", "V", "Section III.B", order=True)
+
+DYNAMIC: Mapping[tuple[str, str], Printed] = {
+    ("analytical", "inline"): Printed("-0.72", "Eo", "Section III.B"),
+    ("analytical", "cross"): Printed("0.56", "Eo", "Section III.B"),
+    ("simplified", "inline"): Printed("-2.9", "Eo", "Section III.B"),
+    ("simplified", "cross"): Printed("-0.99", "Eo", "Section III.B"),
+}
+"""Model errors after demodulation; the paper says "roughly"."""
+
+DIFFERENCE: Mapping[str, Printed] = {
+    "analytical": Printed("1e-3", "Eo", "Section III.A", order=True),
+    "simplified": Printed("1e-3", "Eo", "Section III.A", order=True),
+    "numerical": Printed("1e-1", "Eo", "Section III.A", order=True),
+}
+"""Differences of the demodulated outputs from the centre gradients."""
+
+
+BANDWIDTH = 0.2
+"""Hz, by which the paper turns a standard deviation into a noise density."""
+
+DENSITIES: tuple[tuple[str, int, Printed], ...] = (
+    ("analytical", 1, Printed("0.13", "Eo/sqrt(Hz)", "Section III.C")),
+    ("simplified", 1, Printed("0.25", "Eo/sqrt(Hz)", "Section III.C")),
+    ("simplified", 2, Printed("0.66", "Eo/sqrt(Hz)", "Section III.C")),
+    ("simplified", 3, Printed("1.24", "Eo/sqrt(Hz)", "Section III.C")),
+)
+"""Model, turbulence experiment, noise density of the inline channel."""
+
+
+# --- the printed numbers beside ours -------------------------------------------------------------------
+
+Range = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class PrintedEntry:
+    """One printed number beside ours, in the printed unit (the mean of several runs, ``spread`` their least and greatest).
+
+    ``verdict``: ``agrees``; ``open input``: the number hangs on something that the paper does not state, and the printed one is
+    within its reach; ``unexplained``: neither. ``reason`` is empty only where the numbers agree.
+    """
+
+    quantity: str
+    printed: Printed
+    ours: float
+    spread: Range | None
+    verdict: str
+    reason: str
+
+
+def judge(
+    quantity: str,
+    printed: Printed,
+    ours: float,
+    *,
+    spread: Range | None = None,
+    reach: Range | None = None,
+    open_input: str = "",
+    unexplained: str = "",
+) -> PrintedEntry:
+    """Compare, by the same rule for every number.
+
+    ``spread``: least and greatest of several runs, a printed number between them agrees. ``reach``: the same over an
+    input that the paper leaves open. ``open_input``, ``unexplained``: the reason to give in either case.
+    """
+    inside, within = (r is not None and r[0] <= printed.value <= r[1] for r in (spread, reach))
+    if inside or printed.matches(ours):
+        return PrintedEntry(quantity, printed, ours, spread, "agrees", "")
+    verdict, reason = ("open input", open_input) if within else ("unexplained", unexplained)
+    return PrintedEntry(quantity, printed, ours, spread, verdict, reason)
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """An experiment: its title, settings, and the printed numbers beside ours."""
+
+    title: str
+    settings: Mapping[str, str]
+    rows: tuple[PrintedEntry, ...]
+
+    @property
+    def reasons(self) -> dict[str, list[str]]:
+        """Each reason once, with the quantities that it is for."""
+        found: dict[str, list[str]] = {}
+        for r in self.rows:
+            if r.reason:
+                found.setdefault(f"({r.verdict}) {r.reason}", []).append(r.quantity)
+        return found
+
+
+def _round(value: float) -> str:
+    """Three significant digits; the same text on any machine but for the last of them."""
+    return f"{value:.3g}" if value == 0 or 1e-3 <= abs(value) < 1e4 else f"{value:.2e}"
+
+
+def write_page(experiments: Sequence[Experiment]) -> str:
+    """The page of some experiments, as Markdown."""
+    counts = Counter(row.verdict for e in experiments for row in e.rows)
+    page = make_environment("ragg_runtime.experiments", {"digits": _round}).get_template("page.md.j2")
+    return page.render(experiments=experiments, counts=counts)

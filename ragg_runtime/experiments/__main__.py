@@ -6,9 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 
 import click
 
-from ragg_runtime.experiments.paper import Experiment, write_page
-from ragg_runtime.experiments.regular import repeat_dynamic, repeat_multifrequency
-from ragg_runtime.experiments.turbulence import repeat_turbulence
+from ragg_runtime.experiments import Experiment, write_page
+from ragg_runtime.experiments.repeat import repeat_dynamic, repeat_multifrequency, repeat_turbulence
 
 EXPERIMENTS: Mapping[str, Callable[[], Experiment]] = {
     "multifrequency": repeat_multifrequency,

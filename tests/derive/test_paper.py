@@ -45,14 +45,15 @@ from derive.simplify.page import critical_conditions
 from derive.stages import PAPER
 from derive.symbols import MOTION, SECOND_ORDER, SIGNS, SPIN_ACCELERATION, SPIN_RATE
 from ragg_runtime.estimation.regressors import list_base_columns
+from ragg_runtime.experiments import Experiment, write_page
 from ragg_runtime.experiments.__main__ import main
-from ragg_runtime.experiments.paper import Experiment, find_error, write_page
-from ragg_runtime.experiments.regular import (
+from ragg_runtime.experiments.repeat import (
+    find_error,
     repeat_dynamic,
     repeat_multifrequency,
+    repeat_turbulence,
     run_regular,
 )
-from ragg_runtime.experiments.turbulence import repeat_turbulence
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import table_v
 
