@@ -103,17 +103,13 @@ def library(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Library]:
     return build(tmp_path_factory.mktemp("c"))
 
 
-def copy_of_generated(folder: Path) -> Path:
-    shutil.copytree(COMMITTED, folder / "generated", ignore=shutil.ignore_patterns("__pycache__"))
-    return folder
-
-
 def test_check_shows_the_difference_and_the_command_that_mends_it(tmp_path, monkeypatch, capsys) -> None:
     committed = {
         n: (COMMITTED / n).read_text() for n in json.loads((COMMITTED / "manifest.json").read_text())["files"]
     }
     monkeypatch.setattr(pipeline, "derive_base", lambda: committed)  # which the test below holds to it
-    root = copy_of_generated(tmp_path)
+    root = tmp_path
+    shutil.copytree(COMMITTED, root / "generated", ignore=shutil.ignore_patterns("__pycache__"))
     changed = root / "generated" / "simplified.py"
     changed.write_text(changed.read_text().replace("D1234(K0*k1)", "D1234(-K0*k1)"))
     (root / "generated" / "c" / "chain.h").unlink()

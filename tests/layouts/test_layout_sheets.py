@@ -65,8 +65,6 @@ def test_one_number_stands_for_all_and_lists_are_as_long_as_there_are_accelerome
         ('output = "G_out"\n', "", "output is missing"),
         ('output = "G_out"', 'output = ""', "output: not a name"),
         ('radius = "0.1 m"\n', "", "radius is missing"),
-        ('radius = "0.1 m"', 'radius = "-0.1 m"', "out of range"),
-        ('radius = "0.1 m"', 'radius = "0.1 s"', "dimension"),
         ('spin_frequency = "0.25 Hz"\n', "", "spin_frequency is missing"),
         ("axis = [0, 0, 1]", "axis = [0, 0, 0]", "axis is not a direction"),
         ("axis = [0, 0, 1]", "axis = [0, 1]", "axis is not a direction"),
@@ -74,7 +72,6 @@ def test_one_number_stands_for_all_and_lists_are_as_long_as_there_are_accelerome
         ("axis = [0, 0, 1]", "axis = [0, 0, 1]\nzero = [0, 0, 2]", "zero must not lie along the axis"),
         ("axis = [0, 0, 1]", "axes = [0, 0, 1]", "did you mean 'axis'"),
         ('output = "G_out"', 'output = "V_A2"', "has the name of a voltage"),
-        ('g0 = "9.8 m/s^2"', 'g0 = "9.8 g"', "g0 defines it"),
         ('spin_frequency = "0.25 Hz"', 'spin_frequency = "0.25 Hz"\ng0 = "9.81 m/s^2"', "g0 is given twice"),
     ],
 )

@@ -49,18 +49,12 @@ def test_two_discs_are_refused() -> None:
 
 
 DURATION = 600.0
-DISCS = {
-    "umbrella": (sheets.umbrella(), 12),
-    "complements": (sheets.complements(), 8),
-    "odd": (sheets.odd(), 4),
-}
 
 
 @cache
 def flight_of(which: str) -> tuple[Instrument, Flight]:
     """A flight by the reference over a gradient that varies; the sheet knows the instrument to a third of its errors."""
-    discs, count = DISCS[which]
-    sheet = parse_instrument(sheets.sheet(discs, count, sheets.FULL))
+    sheet = instrument(which, sheets.FULL)
     return sheet, flown_by(sheet, DURATION)
 
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
-import io
 from functools import cache
 from pathlib import Path
 
@@ -12,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.diagnosis.plan import model_text
-from ragg_runtime.cli.main import main
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion, scenario
 from ragg_runtime.signals.demodulators import Demodulator
+from tests.runtime.commands import ragg
 from tests.simulated import RATE
 
 DURATION = 900.0
@@ -58,10 +56,9 @@ def files(folder: Path, changed: float = 0.0, rows: slice = WHOLE) -> tuple[Path
 
 def run(*arguments: object) -> str:
     """A command; what it says on stdout."""
-    out = io.StringIO()
-    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(io.StringIO()):
-        main([str(a) for a in arguments])
-    return out.getvalue()
+    done = ragg(*arguments)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
 
 
 def truth(x: Flight, d: Demodulator) -> NDArray[np.complex128]:

@@ -21,7 +21,7 @@ from scipy.io import netcdf_file, savemat
 from workers import in_process
 
 from ragg_runtime import api
-from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
 from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, files, read_flight, write_flight
@@ -405,11 +405,6 @@ def test_a_line_without_end(tmp_path: Path, text: str) -> None:
 
 STRANGE = "\x1b[31m<script>alert(1)\u202e&\"'"
 SAID = "samples are spikes"
-
-
-def test_what_steers_a_terminal_is_shown() -> None:
-    assert printable("a\x1b[31m\u202e\x07\udcff\x9b") == r"a\x1b[31m\u202e\x07\udcff\x9b"
-    assert printable("Γ_xx = 1 ± 2\n\tµg") == "Γ_xx = 1 ± 2\n\tµg"
 
 
 @pytest.mark.usefixtures("no_figures")

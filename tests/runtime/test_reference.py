@@ -42,8 +42,8 @@ from ragg_runtime.reference.effects import EffectValues, resolve
 from ragg_runtime.reference.effects.force import gravity_tensor
 from ragg_runtime.reference.geometry import Taylor, carried
 from ragg_runtime.reference.gravity import Gradient, PointMass
-from ragg_runtime.reference.motion import RecordedSignal, recorded_motion, turns
-from ragg_runtime.reference.scenario import SHAPES, perfect, scenario, trimmed, turbulence
+from ragg_runtime.reference.motion import RecordedSignal, turns
+from ragg_runtime.reference.scenario import SHAPES, draw_motion, perfect, scenario, trimmed, turbulence
 from ragg_runtime.reference.simulate import Noise, eotvos_noise
 from ragg_runtime.signals.demodulators import demodulate
 from ragg_runtime.simulate import simulate_flight
@@ -170,35 +170,13 @@ def test_noise_of_the_demodulated_channels() -> None:
 # --- effects ---
 
 GAIN = 1e9 * 1e-2 / 9.8
-GAMMA = Gradient(np.array([300, 120, 50, 200, -80, -500]) * 1e-9)
-CONSTANT = {
-    "roll": 0.1, "pitch": -0.2, "pressure": 101325.0 - 40.0, "B_x": 2e-5, "B_y": 3e-5, "B_z": -4e-5, "yaw": 0.7, "fuel_mass": 400.0,
-    "vibration_rms": 0.5, "angular_vibration_rms": 0.01, "balance_current": 0.01, "second_order_current": 0.01,
-}  # fmt: skip
-AUXILIARIES = {
-    **{f"mass_{k}": (lambda t, n=n: 0.2 * np.sin(0.1 * t + n)) for n, k in enumerate("xyz")},
-    **{name: (lambda t, x=x: x + 0 * t) for name, x in CONSTANT.items()},
-    "temperature": lambda t: 293.15 + 0.5 + 1e-3 * t,
-}
+ROLL = {"roll": lambda t: 0.1 + 0 * t}
 
 
-def shaken() -> MotionSignals:
-    rng = np.random.default_rng(8)
-    t = np.arange(-32, 32 * RATE) / RATE
-    smooth = np.cumsum(np.cumsum(rng.standard_normal((6, t.size)), axis=1), axis=1)
-    smooth = (smooth - np.linspace(0, 1, t.size) * smooth[:, -1:]) / np.std(smooth, axis=1, keepdims=True)
-    rapid = np.sin(2 * np.pi * np.outer([0.3, 0.5, 0.7, 0.35, 0.55, 0.75], t))
-    a = np.array([[0.15], [0.15], [1.0]]) + 0.1 * (smooth + rapid)[:3]
-    return recorded_motion(t, a, 5e-4 + 7e-4 * (smooth + rapid)[3:])
-
-
-SHAKEN = shaken()
-
-
-def run(effects=None, instrument=None, motion=SHAKEN, duration=20.0, **options) -> Simulation:
-    instrument = trimmed() if instrument is None else instrument
-    options = {"gravity": GAMMA, "auxiliaries": AUXILIARIES} | options
-    return simulate(instrument, motion, duration, RATE, effects=effects, **options)
+def run(effects=None, instrument=None, motion=None, duration=20.0, **options) -> Simulation:
+    """Of an instrument in turbulence, which records no auxiliary channel but the roll; or as asked for."""
+    instrument, motion = instrument or trimmed(), motion or draw_motion(np.random.default_rng(8), duration)
+    return simulate(instrument, motion, duration, RATE, effects=effects, **{"auxiliaries": ROLL} | options)
 
 
 PLAIN = run()
@@ -210,7 +188,7 @@ def test_lag_is_the_exact_first_order_filter(tau) -> None:
     amplitude, f = 2.0, 2.2
     motion = MotionSignals((Sinusoids(0.3, [amplitude], [f], [0.4]), Sinusoids(), Sinusoids()), still().omega)
     flight, plain_flight = (
-        run(effects, perfect(), motion, 60.0, gravity=None, start=1000.0)
+        run(effects, perfect(), motion, 60.0, start=1000.0)
         for effects in ({"lag": {"tau": [tau, 0, 0, tau]}}, None)
     )
     t = flight.time
@@ -229,7 +207,7 @@ def test_lag_is_the_exact_first_order_filter(tau) -> None:
 
 def test_spin_rate_jitter_has_its_statistics() -> None:
     def angle_error(**sigma: float) -> np.ndarray:
-        flight = run({"spin-rate-jitter": sigma}, perfect(), still(a=(1.0, 0, 0)), 2000.0, gravity=None)
+        flight = run({"spin-rate-jitter": sigma}, perfect(), still(a=(1.0, 0, 0)), 2000.0)
         # A1 measures -sin phi, A3 measures -cos phi.
         phi = np.unwrap(np.arctan2(-flight.voltages[0], -flight.voltages[2]))
         error = phi - 2 * np.pi * 0.25 * flight.time
@@ -286,9 +264,6 @@ def test_saturation_and_quantisation() -> None:
     assert quantisation(values + np.random.default_rng(1).normal(size=len(values)), valid, 0.003) is None
 
 
-ROLL = {"auxiliaries": {"roll": AUXILIARIES["roll"]}}
-
-
 @pytest.mark.parametrize(
     ("asked", "message"),
     [
@@ -302,8 +277,8 @@ ROLL = {"auxiliaries": {"roll": AUXILIARIES["roll"]}}
         (lambda: run({"saturation": {"V_max": -1.0}}), "positive"),
         (lambda: run({"imu-saturation": {"a_max": -1.0}}), "must be positive"),
         (lambda: run({"quantisation": {"q": -1.0}}), "negative"),
-        (lambda: run({"thermal-bias": {"dK0_dT": 1e-6}}, **ROLL), "temperature"),
-        (lambda: run({"self-gradient": {"G_xx_pitch": 1e-6}}, **ROLL), "pitch"),
+        (lambda: run({"thermal-bias": {"dK0_dT": 1e-6}}), "temperature"),
+        (lambda: run({"self-gradient": {"G_xx_pitch": 1e-6}}), "pitch"),
         (lambda: PointMass(1.0, [0, 0, 0]).difference(np.zeros(1), np.ones((3, 1))), "sits on"),
         (lambda: RECORDED.value(np.array([49.9, 60.0])), "does not cover"),
         (lambda: RecordedSignal(np.arange(3.0), np.zeros(3)), ""),
@@ -317,11 +292,12 @@ def test_what_cannot_be_is_refused(asked, message: str) -> None:
 
 
 def test_a_flight_carries_the_record_and_not_the_truth() -> None:
-    run({"self-gradient": {"G_xx_roll": 1e-6}}, **ROLL)  # needs no pitch
-    flight = run().flight("line 1", voltages=True)
+    run({"self-gradient": {"G_xx_roll": 1e-6}})  # needs no pitch
+    s = scenario(5, duration=20.0)
+    flight = s.simulate().flight("line 1", voltages=True)
     assert sorted(flight.outputs) == ["G_out", "V_1", "V_2", "V_3", "V_4"]
     assert {"a_x", "omega_y", "omegadot_z", "Gamma_zz", "temperature", "roll"} <= set(flight.channels)
-    blind = run(record_gradient=False).flight()
+    blind = s.simulate(record_gradient=False).flight()
     assert not any(name.startswith("Gamma") for name in blind.channels)
     V = [flight.outputs[f"V_{j}"] for j in range(1, 5)]
     np.testing.assert_array_equal(flight.outputs["G_out"], V[0] + V[1] - V[2] - V[3])

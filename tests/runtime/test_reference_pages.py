@@ -28,7 +28,7 @@ from derive.symbols import MOTION
 from docs import made
 from generated import folded
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.series_name import ChannelName, Derivative, Function, harmonic, series
+from ragg_runtime.base.series_name import harmonic, series
 from ragg_runtime.cli.main import COMMANDS, cli
 from ragg_runtime.estimation.spectrum import Stretch
 from ragg_runtime.identification.dictionary import list_generic, list_harmonics
@@ -120,13 +120,16 @@ SHELL, PYTHON = block("Step by step"), block("From Python")
 """The second is carried out in test_report.py."""
 
 
+def put_flight(folder: Path) -> None:
+    (folder / "examples").mkdir()
+    pq.write_table(pq.read_table(made.FLIGHT).slice(0, SAMPLES), folder / "examples" / "demo-flight.parquet")
+
+
 @pytest.fixture(scope="module")
 def clone(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     """What the commands need of a fresh clone, and the folder where they run: the files that they name."""
     place = tmp_path_factory.mktemp("clone")
-    (place / "examples").mkdir()
-    whole = pq.read_table(ROOT / "examples" / "demo-flight.parquet")
-    pq.write_table(whole.slice(0, SAMPLES), place / "examples" / "demo-flight.parquet")
+    put_flight(place)
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(place)
         patch.setattr(plots, "draw_plot", lambda _: "<svg></svg>")  # test_report.py has figures
@@ -245,12 +248,6 @@ def test_every_name_of_the_dictionary_is_printed_as_it_was_parsed() -> None:
     assert len(names) > 50
     assert [str(series(n)) for n in sorted(names)] == sorted(names)
     assert [str(harmonic(h)) for h in list_harmonics()] == list(list_harmonics())
-
-
-def test_a_recorded_channel_stands_for_itself_whatever_its_name() -> None:
-    assert series("d_x") == Derivative(ChannelName("x"), 1)
-    assert series("d_x", {"d_x"}) == ChannelName("d_x")
-    assert series("abs(d_x)", {"d_x"}) == Function("abs", ChannelName("d_x"))
 
 
 VENDOR = ROOT / "ragg_runtime" / "studio" / "static" / "vendor"

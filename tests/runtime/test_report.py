@@ -10,14 +10,12 @@ import warnings
 from dataclasses import dataclass, replace
 from functools import cache
 from html.parser import HTMLParser
-from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-import pyarrow.parquet as pq
 import pytest
-from test_reference_pages import PYTHON
+from test_reference_pages import PYTHON, put_flight
 
 from ragg_runtime.api import Added
 from ragg_runtime.base.errors import UserError
@@ -302,9 +300,6 @@ def test_labels_in_figures_are_never_taken_for_mathematics() -> None:
     text.encode("utf-8")
 
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
-
-
 @dataclass(frozen=True)
 class Result:
     """The demonstration, step by step."""
@@ -318,9 +313,7 @@ class Result:
 def demonstration(tmp_path_factory: pytest.TempPathFactory) -> Result:
     """README's Python as it is typed, on three minutes of the shipped flight."""
     folder, made = tmp_path_factory.mktemp("display"), dict[str, Any]()
-    (folder / "examples").mkdir()
-    whole = pq.read_table(EXAMPLES / "demo-flight.parquet")
-    pq.write_table(whole.slice(0, 2880), folder / "examples" / "demo-flight.parquet")
+    put_flight(folder)
     with contextlib.chdir(folder):
         exec(PYTHON, made)
     assert made["analytical"] and made["simplified"]
