@@ -20,11 +20,13 @@ from ragg_runtime.cli.shared import (
     conclude,
     find_wanted,
     flights_argument,
+    frozen_option,
     limit_option,
     load,
     mapping_option,
     model_argument,
     next_command,
+    output_option,
     read,
     series_option,
     source_of,
@@ -46,7 +48,7 @@ else:
 @mapping_option
 @click.option("--calibration", type=click.Choice(["frozen", "self"]), default="self", show_default=True,
               help="frozen: as `ragg calibrate --save` saved it; self: fitted to these flights.")  # fmt: skip
-@click.option("--frozen", is_flag=True, help="The same as --calibration frozen.")
+@frozen_option
 def compare(
     model_dir: Path,
     flights: Sequence[Path],
@@ -64,11 +66,10 @@ def compare(
     with working("comparing" if frozen else "calibrating and comparing", "compare", records):
         held = api.compare_frozen(m, records) if frozen else None
         c = api.compare(m, records) if held is None else held.comparison
+    result = c.as_json() if held is None else held.as_json()
     if held is None:
-        result = c.as_json()
         said = describe.describe_comparison(result, names, then)
     else:
-        result = held.as_json()
         said = describe.describe_held(result, names, then, again)
     title = f"{m.name}, frozen, and {', '.join(names)}" if frozen else ""
     source = source_of(m, records, further=odd, title=title)
@@ -144,14 +145,7 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
 @click.command("next-motion", cls=Command, report=True)
 @model_argument
 @flights_argument
-@click.option(
-    "-o",
-    "--output",
-    type=OutputFile(records=True),
-    required=True,
-    metavar="MOTION",
-    help="Motion file to write.",
-)
+@output_option("MOTION", "Motion file to write.")
 @limit_option
 @click.option(
     "--band",
@@ -242,7 +236,7 @@ def calibrate(
     help="frozen: as `ragg calibrate --save` saved it; self: fitted to these flights; crossed: each block of time fitted to "
     "all others; smoothed: drifting from block to block; online: sample by sample.",
 )
-@click.option("--frozen", is_flag=True, help="The same as --calibration frozen.")
+@frozen_option
 @click.option(
     "--demodulator",
     type=click.Choice(["fir", "butterworth", "causal"]),

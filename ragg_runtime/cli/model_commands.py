@@ -19,13 +19,14 @@ from ragg_runtime.cli.shared import (
     Command,
     Finite,
     Later,
-    OutputFile,
     command_line,
     conclude,
     load,
     mapping_option,
     model_argument,
+    output_option,
     series_option,
+    show_notes,
     source_of,
 )
 from ragg_runtime.wording import describe, describe_other, numbers
@@ -72,15 +73,13 @@ def derive(out: Path | None, check: bool) -> None:
 @mapping_option
 def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
     """Make a model directory from a test sheet."""
-    m = api.new(model_dir, source, mapping)
-    for note in m.notes:
-        click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
+    m = show_notes(api.new(model_dir, source, mapping), model_dir)
     place, effects = one_line(str(m.directory.path)), [e.id for e in m.model.effects]
-    said = (
-        f"{place}: created; effects in the model: {', '.join(effects) or 'none'}",
+    said = describe.say_plainly(
+        f"{place}: created; {describe.write_effects(effects)}",
         f"Edit {place}/model.toml, then: ragg compare {place} FLIGHT",
     )
-    conclude({"model": place, "effects": effects}, [Section(sentences=said)], source_of(m))
+    conclude({"model": place, "effects": effects}, said, source_of(m))
 
 
 @click.command(cls=Command)
@@ -105,10 +104,8 @@ def remove(model_dir: Path, effect: str) -> None:
 
     def tell(m: Loaded) -> None:
         left = [e.id for e in m.model.effects]
-        text = f"removed {effect}; effects in the model: {', '.join(left) or 'none'}"
-        conclude(
-            {"effect": effect, "effects": left}, [Section(sentences=(text,))], source_of(m, before=before)
-        )
+        said = describe.say_plainly(f"removed {effect}; {describe.write_effects(left)}")
+        conclude({"effect": effect, "effects": left}, said, source_of(m, before=before))
 
     api.remove(before, effect, tell)
 
@@ -182,7 +179,7 @@ def simulate(
     io.write_flight(flight, output)
     text = f"{one_line(output)}: {len(flight.time)} samples at {flight.rate:g} Hz"
     result = {"output": output, "samples": len(flight.time), "rate_Hz": flight.rate, "effects": list(hidden)}
-    conclude(result, [Section(sentences=(text,))], source_of(m))
+    conclude(result, describe.say_plainly(text), source_of(m))
 
 
 @click.command(cls=Command, json=False)
@@ -234,18 +231,12 @@ def convert(source: Path, target: Path, mapping: Path | None) -> None:
         click.echo(printable(f"note: {note}"), err=True)
     lines = f"{done['lines']} lines, " if done["lines"] > 1 else ""
     text = f"{target}: {lines}{done['rows']} rows of {len(done['columns'])} columns"
-    conclude(done, [Section(sentences=(text,))])
+    conclude(done, describe.say_plainly(text))
 
 
 @click.command(name="map", cls=Command, json=False)
 @click.argument("flight", type=PLACE)
-@click.option(
-    "-o",
-    "--output",
-    type=OutputFile(records=True),
-    metavar="mapping.toml",
-    help="File to write (default: stdout).",
-)
+@output_option("mapping.toml", "File to write (default: stdout).", required=False)
 def map_command(flight: Path, output: str | None) -> None:
     """Draft a mapping for a file with other column names.
 
@@ -277,8 +268,8 @@ def map_command(flight: Path, output: str | None) -> None:
 
 
 @click.command()
-@click.argument("model_dir", metavar="[MODEL]", type=click.Path(path_type=Path), required=False)
-@click.argument("flights", metavar="[FLIGHT...]", type=click.Path(path_type=Path), nargs=-1)
+@click.argument("model_dir", metavar="[MODEL]", type=PLACE, required=False)
+@click.argument("flights", metavar="[FLIGHT...]", type=PLACE, nargs=-1)
 @click.option(
     "--port", type=click.IntRange(0, 65535), default=0, help="Port on 127.0.0.1 (default: a free one)."
 )
@@ -331,12 +322,12 @@ def run_demo(output: Path, flight: Path | None = None) -> None:
     _run("diagnose", model, str(flight), "--report", diagnosis)
     _run("add", model, HIDDEN[0], str(flight), "--report", report, "--json", added)
     _run("history", model)
-    said = (
+    said = describe.say_plainly(
         *_recovered(json.loads(Path(added).read_text("utf-8"))),
         f"Reports: {diagnosis}  {report}",
         f"In a browser: ragg studio {model} {flight}",
     )
-    click.echo(f"\n{render_text([Section(sentences=said)])}")
+    click.echo(f"\n{render_text(said)}")
 
 
 def _run(*words: str) -> None:

@@ -80,14 +80,16 @@ mapping_option = click.option(
     metavar="FILE",
     help="Mapping of the flights' columns (see ragg map).",
 )
-series_option = click.option(
-    "-o",
-    "--output",
-    type=OutputFile(records=True),
-    required=True,
-    metavar="OUT",
-    help="File to write (.csv, .parquet, .nc).",
-)
+frozen_option = click.option("--frozen", is_flag=True, help="The same as --calibration frozen.")
+
+
+def output_option(metavar: str, text: str, *, required: bool = True) -> Callable[[Any], Any]:
+    """``-o``, a record to write."""
+    kind = OutputFile(records=True)
+    return click.option("-o", "--output", type=kind, required=required, metavar=metavar, help=text)
+
+
+series_option = output_option("OUT", "File to write (.csv, .parquet, .nc).")
 limit_option = click.option(
     "--limit",
     "limits",
@@ -151,7 +153,11 @@ def find_wanted(option: str) -> Any:
 
 def load(model_dir: Path) -> Loaded:
     """The model directory; its notes go to stderr."""
-    m = api.load(model_dir)
+    return show_notes(api.load(model_dir), model_dir)
+
+
+def show_notes(m: Loaded, model_dir: Path) -> Loaded:
+    """The same model; its notes go to stderr."""
     for note in m.notes:
         click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
     return m
@@ -226,7 +232,7 @@ def notes_of(flights: Sequence[Flight]) -> list[Section]:
         return []
     if click.get_current_context().info_name in SHOW_NOTES:
         return [Section(sentences=tuple(lines))]
-    summary = f"{len(lines)} note{'s' * (len(lines) > 1)} on the flights"
+    summary = f"{count(len(lines), 'note')} on the flights"
     return [Section("Notes", tuple(lines), detail=True, summary=summary)]
 
 

@@ -17,6 +17,7 @@ from ragg_runtime.reference.geometry import (
     Rotations,
     Taylor,
     carried,
+    carried_rigidly,
     frame_rotation,
     mount,
     spun,
@@ -132,7 +133,8 @@ class Chain:
     def _mount(self, j: int) -> tuple[Mount, float]:
         """Accelerometer j where it really is, and its radius, m, before forces stretch the arm."""
         place, k = self.instrument.layout.places[j], self.instrument.accelerometers
-        radius = place.radius + float(k["dR"][j]) + geometry.arm_error(self.effects)
+        longer = float(self.effects["arm-length"]["delta_R"]) if "arm-length" in self.effects else 0.0
+        radius = place.radius + float(k["dR"][j]) + longer
         return mount(place, float(k["beta_x"][j]), float(k["beta_z"][j]), self.rotations), radius
 
     def _instant(self, time: Array, delay: float, angle_error: Array, alone: bool = False) -> Instant:
@@ -189,9 +191,9 @@ class Chain:
         time, auxiliaries = instant.time, instant.auxiliaries
         turned = geometry.misalignment(j, angles, nominal, time, auxiliaries, self.effects)
         C = frame_rotation(*turned, self.misalignment)
-        measured = _rows(C, nominal)
-        kappa = transducer.angles_in_second_order(self.effects)
-        i, o, p = measured
+        i, o, p = measured = _rows(C, nominal)
+        # 1: the second-order terms see the force along the measured axes (Eq. 52); 0 in the analytical model
+        kappa = float(self.effects.get("second-order-misalignment", {"kappa": 1.0})["kappa"])
         if kappa != 1:
             level = mount(self.instrument.layout.places[j], 0.0, 0.0, self.rotations)
             unturned, _ = self._nominal_force(j, level, radius, instant, shake)
@@ -270,16 +272,13 @@ class Chain:
         centre = self._centre(j, instant)
         r = _lifted(r, centre)
         m, here = instant.motion, r.value
-        of_platform = np.cross(m.omegadot, here, axis=0) + np.cross(
-            m.omega, np.cross(m.omega, here, axis=0), axis=0
-        )
+        of_platform = carried_rigidly(here, m.omega, m.omegadot)
         f = m.a + shake + of_platform
         if self.spin:
             f = f + self.spin * (carried(r, m.omega, m.omegadot) - of_platform)
         if centre is not None and self.spin != 1:  # the path of the centre counts in any kinematics
-            resting = Taylor.constant(centre.value)
-            moving, still = (carried(x, m.omega, m.omegadot) for x in (centre, resting))
-            f = f + (1 - self.spin) * (moving - still)
+            still = carried_rigidly(centre.value, m.omega, m.omegadot)
+            f = f + (1 - self.spin) * (carried(centre, m.omega, m.omegadot) - still)
         if self.gravity is not None:
             f = f - self.gravity.difference(instant.time, here)
         f = f - force.attraction(here, instant.auxiliaries, self.effects)

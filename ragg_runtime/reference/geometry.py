@@ -186,6 +186,11 @@ def carried(vector: Taylor, omega: Array, omegadot: Array) -> Array:
     """Second derivative in inertial space of a vector (3, N) given by the platform's axes, along these axes: 1 + W s +
     (W W + W') s^2/2, with W u = omega x u, times the vector's own series.
     """
-    once = np.cross(omega, vector.value, axis=0)
-    twice = np.cross(omega, once, axis=0) + np.cross(omegadot, vector.value, axis=0)
-    return np.asarray(twice + 2 * np.cross(omega, vector.first, axis=0) + vector.second)
+    turning = carried_rigidly(vector.value, omega, omegadot)
+    return np.asarray(turning + 2 * np.cross(omega, vector.first, axis=0) + vector.second)
+
+
+def carried_rigidly(vector: Array, omega: Array, omegadot: Array) -> Array:
+    """The same of a vector (3, N) that does not move along these axes: W W + W'."""
+    twice = np.cross(omega, np.cross(omega, vector, axis=0), axis=0)
+    return np.asarray(np.cross(omegadot, vector, axis=0) + twice)

@@ -76,12 +76,6 @@ def spin_share(kinematics: Kinematics, effects: Injected) -> float:
     return 1.0 if kinematics == "full" else 0.0 if given is None else float(given["share"])
 
 
-def arm_error(effects: Injected) -> float:
-    """How much every arm is longer than on the test sheet, m."""
-    longer = effects.get("arm-length")
-    return 0.0 if longer is None else float(longer["delta_R"])
-
-
 def bends(j: int, effects: Injected) -> bool:
     """Whether accelerometer j's radius depends on its specific force."""
     return any(

@@ -97,12 +97,6 @@ def curvature(
     return value
 
 
-def angles_in_second_order(effects: Injected) -> float:
-    """kappa: 1 if the second-order terms see the force along the measured axes (Eq. 52), 0 of the analytical model."""
-    order = effects.get("second-order-misalignment")
-    return 1.0 if order is None else float(order["kappa"])
-
-
 def case_rate(triad: Triad, motion: MotionState) -> Triple:
     """Angular rate of a case about its x, y and z axes, rad/s, from where these axes move to."""
     moving = [np.cross(motion.omega, v.value, axis=0) + v.first for v in triad]
