@@ -177,7 +177,7 @@ def test_steps_are_placed_to_the_sample() -> None:
     """In red noise, where whitened columns that are cut off before the step lack its edge; in one voltage, where the filter of a noise
     that has the step in it makes a spike of its edge.
     """
-    s = scenario(33, duration=300.0, red_corner=0.05, noise_density=5e-9)
+    s = scenario(33, duration=300.0, rate=RATE, red_corner=0.05, noise_density=5e-9)
     stage = Stage.of(fitted_to(s, {"bias-step": {"dK0": [1e-8, 0, 0, 0], "t_step": 141.2}}))
     assert ([*stage.chosen], stage.instants["bias-step"]) == (
         ["bias-step"],
