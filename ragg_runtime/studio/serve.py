@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import secrets
 import socket
@@ -12,10 +13,12 @@ from http.cookies import CookieError, SimpleCookie
 from pathlib import Path
 from urllib.parse import parse_qs
 
+import h11
 import uvicorn
 from starlette.datastructures import Headers
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.studio.files import Places
@@ -29,6 +32,9 @@ SWITCH = 0.0005
 
 CLOSING = 1
 """Longest wait for open pages once it is interrupted, s."""
+
+WHOLE = 10.0
+"""How long a request may take to arrive, s; of a file, how long nothing may arrive."""
 
 BODY = 1 << 20
 """Longest body of a request, bytes; files have a limit of their own."""
@@ -71,6 +77,7 @@ def serve(
             proxy_headers=False,
             lifespan="off",
             ws="none",
+            http=Connection,
             timeout_graceful_shutdown=CLOSING,
         )
         if model is not None:
@@ -98,6 +105,30 @@ def _listen(port: int) -> socket.socket:
         ) from None
     made.listen(128)
     return made
+
+
+class Connection(H11Protocol):
+    """A connection that is closed where a request does not arrive within ``WHOLE``."""
+
+    _end: asyncio.TimerHandle | None = None
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        super().connection_made(transport)
+        self._end = self.loop.call_later(WHOLE, transport.close)
+
+    def data_received(self, data: bytes) -> None:
+        super().data_received(data)
+        is_coming = self.conn.their_state in (h11.IDLE, h11.SEND_BODY)
+        if self._end and (not is_coming or (self.scope and self.scope["path"] == UPLOAD)):
+            self._end.cancel()
+            self._end = None
+        if is_coming and not self._end:
+            self._end = self.loop.call_later(WHOLE, self.transport.close)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        if self._end:
+            self._end.cancel()
+        super().connection_lost(exc)
 
 
 class Guard:

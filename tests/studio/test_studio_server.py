@@ -9,6 +9,7 @@ import subprocess
 import tomllib
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -16,7 +17,7 @@ import httpx
 import numpy as np
 import pyarrow.csv
 import pytest
-from serving import Served, brief, compared, foreign, served, settled
+from serving import PATIENCE, Served, brief, compared, foreign, served, settled
 
 from derive.effects import catalogue
 from ragg_runtime import api
@@ -278,6 +279,26 @@ def test_uploads_keep_to_their_folder_their_kinds_and_their_size(client, folder,
     headers = (f"Origin: {server.origin}", "Content-Length: 99999999999999")
     assert ask(server, client, "POST /api/upload?name=big.csv", *headers) == "400"
     assert not (inside / "big.csv").exists()
+
+
+def test_a_request_that_does_not_arrive_is_closed(client: httpx.Client, server: Served, folder: Path) -> None:
+    settled(client)
+    cookie = "; ".join(f"{k}={v}" for k, v in client.cookies.items())
+    head = f"Host: 127.0.0.1:{server.port}\r\nOrigin: {server.origin}\r\nCookie: {cookie}\r\nContent-Length: 99\r\n\r\n"
+    begun = (
+        "",
+        "GET / HTTP",
+        f"POST /api/upload?name=slow.csv HTTP/1.1\r\n{head}time",
+        f"POST /api/do/look HTTP/1.1\r\nContent-Type: application/json\r\n{head}",
+    )
+    with ExitStack() as stack:
+        found = [stack.enter_context(socket.create_connection(("127.0.0.1", server.port))) for _ in begun]
+        for s, text in zip(found, begun, strict=True):
+            s.sendall(text.encode())
+            s.settimeout(PATIENCE)
+        for s in found:
+            assert s.recv(99) == b""
+    assert not (folder / "model" / "flights" / "slow.csv").exists()
 
 
 def test_a_long_or_broken_body_is_refused(client: httpx.Client) -> None:
