@@ -29,7 +29,6 @@ from ragg_runtime.compensation.drift import Drift, smooth_drift
 from ragg_runtime.compensation.export import FORMS, Contents, write_export
 from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.estimation.fitted import list_noise_floor
-from ragg_runtime.estimation.scores import list_errors
 from ragg_runtime.identification import comparison as _compare
 from ragg_runtime.identification import diagnose as _diagnose
 from ragg_runtime.identification.comparison import Comparison
@@ -71,8 +70,8 @@ from ragg_runtime.workspace import (
 
 __all__ = [
     "FORMS", "Added", "Catalogue", "Compensation", "Flights", "Held", "Kept", "Loaded", "Source", "add", "as_of",
-    "calibrate", "calibration_notes", "change", "compare", "compare_frozen", "compensate",
-    "contents", "diagnose", "effects", "errors_of", "example", "export", "keep_mapping", "load",
+    "calibrate", "change", "compare", "compare_frozen", "compensate",
+    "contents", "diagnose", "effects", "example", "export", "keep_mapping", "load",
     "mapping_of", "mapping_text", "new", "parse_limits", "read_flights",
     "remove", "saved_calibration", "source_of_survey", "survey", "validate", "write_export",
 ]  # fmt: skip
@@ -198,17 +197,12 @@ class Added:
         }
 
 
-def errors_of(c: Comparison | None) -> dict[str, object] | None:
-    """The ``error`` of compare: nominal, calibrated, holdout."""
-    return None if c is None else list_errors(c.nominal, c.calibrated, c.holdout)
-
-
 def _judged(c: Comparison | None) -> dict[str, object] | None:
     """The errors of a comparison with its noise floor, and whether the model is adequate."""
     if c is None:
         return None
     floor = list_noise_floor(c.fitted, c.noise_floor)
-    return {**(errors_of(c) or {}), "noise_floor": floor, "adequate": c.adequate}
+    return {**c.errors_json(), "noise_floor": floor, "adequate": c.adequate}
 
 
 def add(
@@ -265,8 +259,8 @@ def add(
         action="add",
         time=now(),
         effect=effect,
-        before=errors_of(before),
-        after=errors_of(after),
+        before=None if before is None else before.errors_json(),
+        after=None if after is None else after.errors_json(),
         flights=MappingProxyType({x.name: x.digest for x in flights}),
         text=text,
     )
@@ -426,11 +420,6 @@ def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | N
         mapping=mapping,
     )
     return Loaded(directory, m.model, m.notes)
-
-
-def calibration_notes(m: Loaded) -> list[str]:
-    """What is odd about the calibration that is kept."""
-    return saved_calibration(m).find_oddities(m.model, m.instrument)
 
 
 def compare_frozen(m: Loaded, flights: Flights) -> Held:

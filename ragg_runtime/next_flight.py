@@ -10,11 +10,11 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import linalg
 
 from ragg_runtime.api import Loaded, diagnose
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text
+from ragg_runtime.compensation.calibrate import invert_root
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.least_squares import compute_r_factor
 from ragg_runtime.estimation.observation import combine_output, observe_flights
@@ -187,7 +187,7 @@ class ChannelVariance:
 
     def rms(self, R: Array) -> tuple[float, float]:
         """What the parameters of an R factor add to inline and cross, Eo."""
-        inline, cross = (float(np.linalg.norm(G @ _invert(R))) for G in self.shown)
+        inline, cross = (float(np.linalg.norm(G @ invert_root(R))) for G in self.shown)
         return inline, cross
 
     def weigh_variance(self, R: Array) -> float:
@@ -197,14 +197,14 @@ class ChannelVariance:
     def weigh_volume(self, R: Array) -> float:
         """D-criterion: the less volume of the directions that make up the channels' variance by the flights so far, the more."""
         shown = np.vstack([*self.shown])
-        U, s, _ = np.linalg.svd(shown @ _invert(self.known.root), full_matrices=False)
+        U, s, _ = np.linalg.svd(shown @ invert_root(self.known.root), full_matrices=False)
         matter = U[:, s**2 > MATTER * np.sum(s**2)].T @ shown
-        return -2 * float(np.sum(np.log(np.linalg.svd(matter @ _invert(R), compute_uv=False))))
+        return -2 * float(np.sum(np.log(np.linalg.svd(matter @ invert_root(R), compute_uv=False))))
 
     def promise(self, motion: Sequence[Sinusoid], duration: float) -> dict[str, Any]:
         """What so much, s, of a motion promises of the channels, of the parameters, and of combinations of accelerometers."""
         f, R = self.known.f, {"now": self.known.root, "then": self.known.fly(motion, duration, LONGEST)}
-        root, columns = {when: _invert(x) for when, x in R.items()}, f.calibration.columns
+        root, columns = {when: invert_root(x) for when, x in R.items()}, f.calibration.columns
 
         def std(w: Array, when: str = "then") -> float:
             return float(np.linalg.norm(w @ root[when]))
@@ -225,10 +225,6 @@ class ChannelVariance:
                 for name, unit, w, _ in find_combinations(f.model, f.calibration.p, columns, std)
             ],
         }
-
-
-def _invert(R: Array) -> Array:
-    return np.asarray(linalg.solve_triangular(R, np.eye(len(R))))
 
 
 # --- the run sheet, and what was reached

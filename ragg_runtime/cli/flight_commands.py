@@ -78,7 +78,7 @@ def compare(
 
 def _calibration_notes(m: Loaded) -> list[str]:
     """What is odd about the saved calibration, also on stderr."""
-    odd = api.calibration_notes(m)
+    odd = api.saved_calibration(m).find_oddities(m.model, m.instrument)
     for note in odd:
         click.echo(printable(f"note: {note}"), err=True)
     return odd

@@ -121,6 +121,10 @@ class Comparison:
             describe.describe_comparison(self.as_json(), [o.name for o in self.fitted.observations])
         )
 
+    def errors_json(self) -> dict[str, object]:
+        """The ``error`` of the JSON: nominal, calibrated, holdout."""
+        return list_errors(self.nominal, self.calibrated, self.holdout)
+
     def as_json(self) -> dict[str, object]:
         f = self.fitted
         records = [o.record for o in f.observations]
@@ -129,7 +133,7 @@ class Comparison:
             "samples": int(sum(len(o.record.time) for o in f.flights)),
             "duration_s": float(sum(o.record.time[-1] + 1 / o.record.rate for o in f.flights)),
             "rate_Hz": float(records[0].rate),
-            "error": list_errors(self.nominal, self.calibrated, self.holdout),
+            "error": self.errors_json(),
             "noise_floor": list_noise_floor(f, self.noise_floor),
             "explained": {"share": self.explained.share},
             "converged": self.converged,

@@ -76,7 +76,7 @@ class Units:
 
     @cached_property
     def _registry(self) -> pint.UnitRegistry[Any]:
-        import pint  # slow to import, and and messages do without it
+        import pint  # slow to import, and messages do without it
 
         registry: pint.UnitRegistry[Any] = pint.UnitRegistry(on_redefinition="ignore")
         registry.define(f"standard_g = {self.g0!r} * meter / second ** 2 = g")

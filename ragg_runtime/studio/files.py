@@ -15,10 +15,8 @@ from pathlib import Path
 from starlette.requests import ClientDisconnect, Request
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.io.draft import draft_mapping, sample_table
 from ragg_runtime.io.files import ENDINGS, find_ending
-from ragg_runtime.io.record import ANGULAR_RATE, SPECIFIC_FORCE
-from ragg_runtime.workspace import Loaded, mapping_of
+from ragg_runtime.workspace import Loaded
 
 LISTED = 500
 """Most entries of a folder that are shown."""
@@ -93,22 +91,6 @@ def _size_of(e: os.DirEntry[str]) -> int:
         return e.stat().st_size if e.is_file() else 0
     except OSError:
         return 0
-
-
-def is_foreign(m: Loaded, path: Path) -> bool:
-    """Whether the columns of a file that cannot be read must be described: they have other names, or no units.
-
-    Not those that the model's own mapping describes: then something else is wrong.
-    """
-    try:
-        own = mapping_of(m, None)
-        if own is not None and own.columns <= {c.name for c in sample_table(path).columns}:
-            return False
-        made = draft_mapping(path)
-    except (UserError, OSError):
-        return False
-    found = [made.sure.get(n) for n in (*SPECIFIC_FORCE, *ANGULAR_RATE)]
-    return bool(made.questions) or not any(found) or any(sure in ("likely", "guess") for sure in found)
 
 
 # --- flights that the page sends -----------------------------------------------------------------------

@@ -6,7 +6,7 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 import tomlkit
@@ -35,13 +35,30 @@ UNWRITTEN = Path("mapping.toml")
 
 def draft(m: Loaded, path: Path) -> Json:
     """The model's own mapping if the file has its columns, else a first one by looking; and what the file holds."""
-    columns = sample_table(path).columns
-    names = {c.name for c in columns}
-    own = mapping_of(m, None)
-    if own is not None and own.columns <= names:
+    columns, own = sample_table(path).columns, mapping_of(m, None)
+    if _describes(own, columns):
         return _show(tomllib.loads(read_text(own.path)), columns, {}, kept=True)
     made = draft_mapping(path)
     return _show(tomllib.loads(made.text), columns, made.sure, kept=own is not None)
+
+
+def _describes(how: Mapped | None, columns: Sequence[DataColumn]) -> TypeGuard[Mapped]:
+    return how is not None and how.columns <= {c.name for c in columns}
+
+
+def is_foreign(m: Loaded, path: Path) -> bool:
+    """Whether the columns of a file that cannot be read must be described: they have other names, or no units.
+
+    Not those that the model's own mapping describes: then something else is wrong.
+    """
+    try:
+        if _describes(mapping_of(m, None), sample_table(path).columns):
+            return False
+        made = draft_mapping(path)
+    except (UserError, OSError):
+        return False
+    found = [made.sure.get(n) for n in NEEDED]
+    return bool(made.questions) or not any(found) or any(sure in ("likely", "guess") for sure in found)
 
 
 def _show(data: Json, held: Sequence[DataColumn], sure: Mapping[str, str], *, kept: bool) -> Json:

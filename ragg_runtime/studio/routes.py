@@ -183,7 +183,7 @@ READS: Mapping[str, Callable[[Session, Request], Any]] = {
     "spectrogram": lambda session, request: series.draw_spectrogram(session.state, _read_asked(request)),
     "heat": lambda session, request: series.draw_heat(session.state, _read_asked(request)),
     "panel": lambda session, request: series.draw_panel(session.state, _read_asked(request)),
-    "preview": lambda session, request: series.predict_error(session.state, _read_asked(request)),
+    "preview": lambda session, request: series.draw_preview(session.state, _read_asked(request)),
     "folder": lambda session, request: session.places.listing(request.query_params.get("place", "")),
     "mapping": _draft_mapping,
 }

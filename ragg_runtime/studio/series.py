@@ -1,22 +1,30 @@
-"""What the figures of the page draw: windows of series, spectra, spectrograms, the map of harmonic and motion term."""
+"""What the figures of the page draw: windows of series, spectra, spectrograms, the map of harmonic and motion term, predictions."""
 
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import special
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.progress import one_thread
 from ragg_runtime.compensation.calibrate import information, invert_root
+from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.scores import demodulate_residual
+from ragg_runtime.estimation.whitening import PreparedFlight
+from ragg_runtime.identification import omnibus
+from ragg_runtime.identification.dictionary import Term, list_harmonics
+from ragg_runtime.identification.omnibus import Scores
+from ragg_runtime.identification.result import Diagnosis
+from ragg_runtime.identification.selection import ProjectedProblem, make_problem
 from ragg_runtime.io.record import DEMODULATED
 from ragg_runtime.report import panels
 from ragg_runtime.report.plots import draw_file
-from ragg_runtime.studio import predict
 from ragg_runtime.studio.session import State
 from ragg_runtime.wording import numbers
 from ragg_runtime.wording.sections import Plot
@@ -100,6 +108,79 @@ class Sampled:
 def sample(start: float, step: float, x: NDArray[np.floating[Any]]) -> Sampled:
     """A series (N,) as the page draws it."""
     return Sampled(start, step, np.asarray(x, dtype=np.float32))
+
+
+# --- what effects would do before they are derived, and a generic term by itself ---------------------
+
+
+def make_problem_of(d: Diagnosis) -> ProjectedProblem:
+    """The testable effects, steps included, on the R factors of everything."""
+    return make_problem(d.fitted, [r.effect for r in d.ranking])
+
+
+def list_columns(problem: ProjectedProblem, effects: Sequence[str]) -> list[int]:
+    """The testable candidate columns of some effects."""
+    return [n for e in effects if e in problem.candidates for n in problem.testable(e)]
+
+
+def fit_effects(
+    f: Fitted, problem: ProjectedProblem, effects: Sequence[str], *, held_out: bool = False
+) -> Array:
+    """(size,): fitted coefficients of all columns with these effects in."""
+    extra = list_columns(problem, effects)
+    fitted, _ = f.coefficients(extra, held_out=held_out)
+    return f.vector(fitted, extra)
+
+
+@one_thread
+def predict_error(f: Fitted, problem: ProjectedProblem, effects: Sequence[str]) -> tuple[float, float]:
+    """The error before demodulation, Eo, calibrated and held out, that these effects would leave if everything is linear."""
+    whole, held_out = f.score([fit_effects(f, problem, effects, held_out=h) for h in (False, True)])
+    return whole.whole.rms_Eo, held_out.held_out.rms_Eo
+
+
+@dataclass(frozen=True)
+class Heat:
+    """Significance ``z`` (harmonics, products of channels) of generic terms, each alone, in standard deviations (NaN: not
+    asked); ``coefficient`` in V per SI unit of the product; from ``level`` on one of all the terms is significant.
+    """
+
+    harmonics: tuple[str, ...]
+    products: tuple[str, ...]
+    z: Array
+    coefficient: Array
+    level: float
+
+
+@one_thread
+def score_terms(f: Fitted, flight: int, given: Sequence[int] = ()) -> Heat:
+    """The scores of all terms in one flight once base and ``given`` candidate columns are projected out, in one pass."""
+    prepared, projector, _ = omnibus.project_out(f, flight, given)
+    s = Scores(prepared, projector)
+    s.collect(lambda piece, y: None)
+    norm = np.where(np.isfinite(s.norms), s.norms, np.nan)
+    terms = s.dictionary.terms
+    rows = list_harmonics()
+    columns = tuple(dict.fromkeys(t.product for t in terms if t.harmonic in rows))
+    z, coefficient = (np.full((len(rows), len(columns)), np.nan) for _ in range(2))
+    row, column = ({name: k for k, name in enumerate(names)} for names in (rows, columns))
+    for k, t in enumerate(terms):
+        if t.harmonic in row:
+            at = row[t.harmonic], column[t.product]
+            z[at] = s.dot[k] / norm[k]
+            coefficient[at] = z[at] / (norm[k] * s.dictionary.size(t))
+    share = omnibus.FAMILY * omnibus.SHARES[0] / (2 * max(int(np.sum(np.isfinite(norm))), 1))
+    return Heat(
+        harmonics=rows, products=columns, z=z, coefficient=coefficient, level=-float(special.ndtri(share))
+    )
+
+
+def compute_term(prepared: PreparedFlight, harmonic: str, product: str, coefficient: float) -> Array:
+    """(N,) V: a generic term over a whole flight, with this coefficient."""
+    r = prepared.observation.record
+    channels = () if product == "1" else tuple(product.split("*"))
+    x = coefficient * omnibus.make_dictionary(prepared).series(Term(harmonic, channels), r)
+    return np.asarray(np.where(r.valid, x, 0.0))
 
 
 # --- series over time ----------------------------------------------------------------------------------
@@ -186,7 +267,7 @@ class View:
             raise UserError("no effect is predicted for a validation flight")
 
         def make() -> list[Array]:
-            v = predict.fit_effects(d.fitted, predict.make_problem_of(d), effects)
+            v = fit_effects(d.fitted, make_problem_of(d), effects)
             return list(d.fitted.residuals(v))
 
         return self.s.cache.get(("left", effects), make)[self.n]
@@ -225,15 +306,15 @@ class View:
             raise UserError("there is no step before this one")
         return other.residual[self.n]
 
-    def terms(self, effects: tuple[str, ...]) -> predict.Heat:
+    def terms(self, effects: tuple[str, ...]) -> Heat:
         """Harmonic x motion term of the residual once these effects are in."""
         d = self.s.diagnosed
         if self.kept:
             d, effects = None, ()
         f = self.f if d is None else d.fitted
-        given = [] if d is None else predict.list_columns(predict.make_problem_of(d), effects)
-        make = lambda: predict.score_terms(f, self.n, given)  # noqa: E731
-        found: predict.Heat = self.remember(("heat", effects, d is None), make)
+        given = [] if d is None else list_columns(make_problem_of(d), effects)
+        make = lambda: score_terms(f, self.n, given)  # noqa: E731
+        found: Heat = self.remember(("heat", effects, d is None), make)
         return found
 
     def _fit_term(self, name: str) -> Array:
@@ -244,7 +325,7 @@ class View:
         c = float(h.coefficient[h.harmonics.index(harmonic), h.products.index(product)])
         if not np.isfinite(c):
             raise UserError("the model already has this term", found=f"{harmonic} x {product}")
-        return predict.compute_term(self.prepared, harmonic, product, c)
+        return compute_term(self.prepared, harmonic, product, c)
 
     def _pass_band(self, name: str) -> Array:
         try:
@@ -268,13 +349,13 @@ class View:
 # --- everything else -----------------------------------------------------------------------------------
 
 
-def predict_error(s: State, a: Asked) -> dict[str, Any]:
+def draw_preview(s: State, a: Asked) -> dict[str, Any]:
     """The error that the ticked effects would leave, and that without them."""
     d = s.require("diagnosed")
-    known = predict.make_problem_of(d)
+    known = make_problem_of(d)
 
     def predicted(*effects: str) -> tuple[float, float]:
-        make = lambda: predict.predict_error(d.fitted, known, effects)  # noqa: E731
+        make = lambda: predict_error(d.fitted, known, effects)  # noqa: E731
         return s.cache.get(("predicted", effects), make)
 
     rms, held_out = predicted(*(e for e in a.effects if e in known.candidates))

@@ -24,7 +24,8 @@ from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import Flight
 from ragg_runtime.model import derive
 from ragg_runtime.model.directory import HistoryStep, load_model_dir
-from ragg_runtime.studio.files import Places, is_foreign
+from ragg_runtime.studio.files import Places
+from ragg_runtime.studio.mapping import is_foreign
 
 T = TypeVar("T")
 Part = Callable[[str, float], None]
