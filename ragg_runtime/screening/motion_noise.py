@@ -108,11 +108,19 @@ def _measure_spectrum(x: Array, there: Mask) -> _Spectrum:
     while window > 8 and np.sum(lengths[lengths >= window]) < max(8 * window, 0.5 * np.sum(lengths)):
         window //= 2
     filled, parts = predict_missing(x, there), runs(whole, window)
-    taken = [signal.welch(filled[r], nperseg=window, detrend=signal.detrend) for r in parts]
     share = np.array([r.stop - r.start for r in parts], dtype=np.float64)
-    density = np.average([d for _, d in taken], axis=0, weights=share)
+    density = np.average([_average_windows(filled[r], window) for r in parts], axis=0, weights=share)
     smoothed = np.convolve(np.pad(density, 1, mode="edge"), TRIANGLE, mode="valid")
-    return _Spectrum(taken[0][0], smoothed, SCATTER * float(np.sqrt(window / np.sum(share))))
+    return _Spectrum(fft.rfftfreq(window), smoothed, SCATTER * float(np.sqrt(window / np.sum(share))))
+
+
+def _average_windows(x: Array, window: int) -> Array:
+    """One-sided density of a series by Welch's method, all windows at once: ``scipy.signal.welch`` takes their trends one by one."""
+    shape = signal.windows.hann(window, sym=False)
+    parts = signal.detrend(np.lib.stride_tricks.sliding_window_view(x, window)[:: window // 2])
+    power = np.mean(np.abs(fft.rfft(parts * shape)) ** 2, axis=0) / np.sum(shape**2)
+    power[1:-1] *= 2.0  # what is at negative frequencies
+    return np.asarray(power)
 
 
 def smooth_noisy_motion(s: Sampler) -> Flight:
