@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -422,6 +423,11 @@ class ProjectedResidual:
     found: Sequence[Disturbance] = ()
     shapes: Array = field(default_factory=lambda: np.empty((0, 0)))
 
+    @cached_property
+    def basis(self) -> Array:
+        """(k, rows): the columns, orthonormal."""
+        return np.asarray(self.directions.T @ self.columns)
+
     @property
     def series(self) -> Array:
         """(N,): what is left, zero where a sample is not valid."""
@@ -443,7 +449,7 @@ class ProjectedResidual:
         lags = fft.irfft(own.real**2 + own.imag**2, size) * fft.irfft(density, size)
         bins = n // 2 + 1
         power = np.interp(np.arange(bins) / n, fft.rfftfreq(size), fft.rfft(lags).real)
-        Q, taps = self.directions.T @ self.columns, noise.whitening_filter(n)
+        Q, taps = self.basis, noise.whitening_filter(n)
         CQ, waves, cross = np.empty_like(Q), np.empty((len(Q), bins), complex), np.zeros(bins)
         for rows in split_range(len(Q), FILLED):
             wide = place_valid(Q[rows], valid)
@@ -453,7 +459,7 @@ class ProjectedResidual:
             coloured = fft.rfft(window * fill_gaps(through, valid, taps))
             cross += 2.0 * np.sum((waves[rows].conj() * coloured).real, axis=0)
         parts = waves.view(float)  # real and imaginary parts side by side: half the work
-        square = np.sum((parts * ((Q @ CQ.T) @ parts)).reshape(len(Q), -1, 2), axis=(0, 2))
+        square = np.einsum("kn,kn->n", parts, (Q @ CQ.T) @ parts).reshape(-1, 2).sum(axis=1)
         plain = noise.psd(np.arange(bins) * noise.rate / n) * noise.rate / 2
         return np.asarray(np.maximum(power - cross + square, 0.0) / (plain * np.sum(window**2)))
 
