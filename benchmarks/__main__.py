@@ -1,9 +1,8 @@
-"""Run the benchmarks of speed: all, or those named; a run of all writes the tables of ``docs/contributors/benchmarks.md``."""
+"""Run the benchmarks of speed: the usual, or those named; a run of the usual writes the tables of ``docs/contributors/benchmarks.md``."""
 
 from __future__ import annotations
 
 import argparse
-import importlib
 import multiprocessing
 import os
 import platform
@@ -14,13 +13,18 @@ from concurrent.futures import ProcessPoolExecutor
 from importlib import metadata
 from pathlib import Path
 
+from benchmarks import commands, evaluation
+
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "contributors" / "benchmarks.md"
 TABLES = "Measured on: "
 """Where the tables begin on the page; what is above is written by hand."""
 
-BENCHMARKS = ("commands", "evaluation")
-"""Modules of this package with a function ``run() -> list[Row]``."""
+BENCHMARKS = {"commands": commands.run, "day": commands.run_day, "evaluation": evaluation.run}
+"""Functions that return the rows of a table; their first line is what is said above it."""
+
+USUAL = ("commands", "evaluation")
+"""What runs if none is named: a day takes much longer."""
 
 
 def describe_machine() -> str:
@@ -41,28 +45,26 @@ def describe_machine() -> str:
 
 def measure(name: str) -> str:
     """The section of a benchmark, which runs in a process of its own."""
-    module = importlib.import_module(f"benchmarks.{name}")
-    title = (module.__doc__ or name).splitlines()[0]
+    run = BENCHMARKS[name]
     with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
         try:
-            rows = pool.submit(module.run).result()
+            rows = pool.submit(run).result()
             found = "\n".join(["| what | value | target |", "|---|---:|---|", *map(str, rows)])
         except Exception as error:
             found = f"Failed: {type(error).__name__}: {error}."
-    return f"### {name}\n\n{title}\n\n{found}\n"
+    return f"### {name}\n\n{(run.__doc__ or name).splitlines()[0]}\n\n{found}\n"
 
 
 def main(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument(
-        "names", nargs="*", metavar="NAME", help=f"{', '.join(BENCHMARKS)}; none: all of them"
+        "names", nargs="*", metavar="NAME", help=f"{', '.join(BENCHMARKS)}; none: {', '.join(USUAL)}"
     )
     names = parser.parse_args(arguments).names
     if unknown := [a for a in names if a not in BENCHMARKS]:
-        print(f"unknown benchmark: {', '.join(unknown)}; known: {', '.join(BENCHMARKS)}", file=sys.stderr)
-        return 2
+        parser.error(f"unknown benchmark: {', '.join(unknown)}; known: {', '.join(BENCHMARKS)}")
     sections = []
-    for name in names or BENCHMARKS:
+    for name in names or USUAL:
         sections.append(measure(name))
         print(sections[-1], flush=True)
     if not names:

@@ -1,21 +1,19 @@
-"""Whole commands, the start of Python included, in processor time; and what each further sample costs that is compensated.
+"""Speed of the commands: processor time of a command's process and its children, which other work lengthens less than the wall clock.
 
-Processor time of the command's own process and its children, which other work on the machine lengthens less than the wall
-clock. Medians of three, but of what takes long: what the first one derives and compiles is kept (the very
-first time is a row of its own).
+Medians of three of what is short; what the first diagnosis derives and compiles is kept for the others.
 """
 
 from __future__ import annotations
 
 import os
 import resource
-import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -24,74 +22,73 @@ from ragg_runtime import api
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.simulate import simulate_flight
 
-REPEATS = 3
 HIDDEN = "thermal-scale:dK1_dT=0/0/6e-8/0"
 SHORT, LONG = 100_000, 300_000
 """Samples of the flights of which the difference is what a further sample costs."""
 
 
 def run() -> list[Row]:
-    """Rows of all commands."""
+    """Whole commands, the start of Python included, in processor time; and what each further sample costs that is compensated."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        m = api.new(folder / "model")
-        model, copy = str(folder / "model"), folder / "copy"
-        flight = simulate_flight(m.instrument, [HIDDEN], seed=1, duration=1800.0, no_gradient=False)
-        known, unknown, hour = (str(folder / f"{n}.parquet") for n in ("flight", "unknown", "hour"))
+        model, flight = str(folder / "model"), simulate(folder, no_gradient=False)
+        known, unknown, hour = (str(folder / f"{n}.parquet") for n in ("known", "unknown", "hour"))
         write_flight(flight, known)
-        write_flight(simulate_flight(m.instrument, [HIDDEN], seed=1, duration=1800.0), unknown)
-        write_flight(simulate_flight(m.instrument, [HIDDEN], seed=1, duration=3600.0, rate=100.0), hour)
-        first = measure("diagnose", model, known, XDG_CACHE_HOME=str(folder / "cold"))
-        without_gradient, in_hour = (measure("diagnose", model, x) for x in (unknown, hour))
-        memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
-
-        def copy_model() -> None:
-            shutil.rmtree(copy, ignore_errors=True)
-            shutil.copytree(model, copy)
-
-        return [
-            _row("import ragg", 0.2, python=("-c", "import ragg")),
-            _row("ragg --help", 0.2, "--help"),
-            _row("ragg effects", 0.2, "effects"),
+        write_flight(simulate(folder), unknown)
+        write_flight(simulate(folder, duration=3600.0, rate=100.0), hour)
+        calls = [("import ragg", partial(measure, python=("-c", "import ragg")))]
+        calls += [(f"ragg {x}", partial(measure, x)) for x in ("--help", "effects")]
+        rows = [Row(n, [call() for _ in range(3)], "s CPU", 0.2) for n, call in calls]
+        cold = str(folder / "cold")
+        rows += [
             Row("ragg derive, everything", measure("derive", "--out", str(folder / "derived")), "s CPU", 3.0),
-            Row("ragg diagnose, the very first time", first, "s CPU"),
-            _row("ragg compare", None, "compare", model, known),
-            _row("ragg diagnose", 1.5, "diagnose", model, known),
-            Row("ragg diagnose, gradient unknown", without_gradient, "s CPU"),
-            Row("ragg diagnose, an hour at 100 Hz", in_hour, "s CPU", 20.0),
-            Row("ragg diagnose, an hour at 100 Hz, peak memory", memory, "MB"),
-            _row("ragg add", 2.5, "add", str(copy), "thermal-scale", known, prepare=copy_model),
-            *_compensation(flight, folder),
+            Row("ragg diagnose, the very first time", measure("diagnose", model, known, cache=cold), "s CPU"),
+            Row("ragg compare", measure("compare", model, known), "s CPU"),
+            Row("ragg diagnose", measure("diagnose", model, known), "s CPU", 1.5),
+            Row("ragg diagnose, gradient unknown", measure("diagnose", model, unknown), "s CPU"),
+            *measure_diagnosis("an hour", model, hour, 20.0),
+            *measure_compensation(flight, folder, known),
         ]
+        return [*rows, Row("ragg add", measure("add", model, "thermal-scale", known), "s CPU", 2.5)]
 
 
-def measure(*arguments: str, python: tuple[str, ...] = ("-m", "ragg_runtime"), **environment: str) -> float:
+def run_day() -> list[Row]:
+    """A diagnosis of a day at 100 Hz, from a file."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        write_flight(simulate(folder, duration=86_400.0, rate=100.0), folder / "day.parquet")
+        return measure_diagnosis("a day", str(folder / "model"), str(folder / "day.parquet"), 300.0, 5000.0)
+
+
+def simulate(folder: Path, **options: Any) -> Flight:
+    """A flight of the model in a folder, which is made if there is none."""
+    path = folder / "model"
+    m = api.load(path) if path.exists() else api.new(path)
+    return simulate_flight(m.instrument, [HIDDEN], seed=1, **options)
+
+
+def measure(*arguments: str, python: tuple[str, ...] = ("-m", "ragg_runtime"), cache: str = "") -> float:
     """Processor time, s, of ``ragg`` with these arguments, whose modules are kept as bytecode, as an installed package has them."""
-    own = {k: x for k, x in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"} | environment
+    own = {k: x for k, x in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    own |= {"XDG_CACHE_HOME": cache} if cache else {}
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run([sys.executable, *python, *arguments], check=True, capture_output=True, env=own)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def _row(
-    name: str,
-    limit: float | None,
-    *arguments: str,
-    prepare: Callable[[], None] = lambda: None,
-    **how: tuple[str, ...],
-) -> Row:
-    found = []
-    for _ in range(REPEATS):
-        prepare()
-        found.append(measure(*arguments, **how))
-    return Row(name, found, "s CPU", limit)
+def measure_diagnosis(of: str, model: str, path: str, limit: float, most: float | None = None) -> list[Row]:
+    """Time and memory of the diagnosis of a long record: nothing before it has taken as much memory."""
+    spent = measure("diagnose", model, path)
+    memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+    name = f"ragg diagnose, {of} at 100 Hz"
+    return [Row(name, spent, "s CPU", limit), Row(f"{name}, peak memory", memory, "MB", most)]
 
 
-def _compensation(flight: Flight, folder: Path) -> list[Row]:
+def measure_compensation(flight: Flight, folder: Path, known: str) -> list[Row]:
     """Frozen, from Parquet to Parquet: what a further sample costs."""
     model = str(folder / "model")
-    measure("calibrate", model, str(folder / "flight.parquet"), "--save")
+    measure("calibrate", model, known, "--save")
     paths = [folder / f"{samples}.parquet" for samples in (SHORT, LONG)]
     for samples, path in zip((SHORT, LONG), paths, strict=True):
         repeated = replace(
@@ -104,7 +101,7 @@ def _compensation(flight: Flight, folder: Path) -> list[Row]:
         write_flight(repeated, path)
     options = ("--calibration", "frozen", "-o", str(folder / "compensated.parquet"))
     # in turn: a difference of two times alone may come out at half of it or twice
-    spent = [[measure("compensate", model, str(p), *options) for p in paths] for _ in range(REPEATS)]
+    spent = [[measure("compensate", model, str(p), *options) for p in paths] for _ in range(3)]
     short, long = np.transpose(spent)
     return [
         Row("ragg compensate, 100,000 samples", short, "s CPU"),

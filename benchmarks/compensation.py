@@ -1,13 +1,7 @@
-"""What compensation does to a gradient, and what its calibrations are worth, in the reference.
-
-python -m benchmarks.compensation                   gain from 1 s to 1 h; a figure of the site
-python -m benchmarks.compensation --calibration     designed calibration runs against even multisines of the same size
-"""
+"""What compensation does to a gradient, in the reference: its gain from 1 s to 1 h, a figure of the site."""
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,17 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.compensation.compensate import prepare
-from ragg_runtime.estimation.fitted import fit
-from ragg_runtime.estimation.observation import observe_flights
-from ragg_runtime.estimation.regressors import compute_residual
-from ragg_runtime.estimation.scores import demodulate_residual
-from ragg_runtime.identification import next_motion
-from ragg_runtime.identification.next_motion import Sinusoid
-from ragg_runtime.io import Flight
 from ragg_runtime.model.model import load_packaged
-from ragg_runtime.next_flight import ChannelVariance
-from ragg_runtime.reference.motion import MotionSignals, Sinusoids
-from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.signals.demodulators import DEMODULATORS, find_demodulator
 
 Array = NDArray[np.float64]
@@ -83,70 +68,5 @@ def draw_transfer(file: Path) -> None:
     fig.savefig(file, dpi=130)
 
 
-# --- calibration runs ------------------------------------------------------------------------------------
-
-RUN = 600.0
-"""Of a calibration run, s."""
-
-PAPER_ORDER = {"second-order-misalignment": {"kappa": 0.0}}
-"""No angles in second-order terms, as in the model that is calibrated."""
-
-
-def fly_sinusoids(s: Scenario, motion: Sequence[Sinusoid], duration: float) -> Flight:
-    """The scenario's instrument in a multisine about the mean of its flight."""
-    t = np.arange(int(s.duration * s.rate)) / s.rate
-    parts = {}
-    for group in ("a", "omega"):
-        for k, signal in zip("xyz", getattr(s.motion, group), strict=True):
-            own = [x[1:] for x in motion if x[0] == f"{group}_{k}"]
-            f, size, phase = zip(*own, strict=True) if own else ((), (), ())
-            parts[f"{group}_{k}"] = Sinusoids(float(np.mean(signal.value(t))), size, f, phase)
-    x, y, z, wx, wy, wz = (parts[n] for n in next_motion.AXES)
-    other = replace(s, motion=MotionSignals((x, y, z), (wx, wy, wz)), seed=s.seed + 1000, duration=duration)
-    return other.simulate(PAPER_ORDER).flight("run")
-
-
-def calibrate_by_runs(seed: int) -> dict[tuple[str, float], Array]:
-    """Of each run by name and length, s, (2, 2) rms, Eo, that the parameters add to inline and cross: as uncertain, as they err."""
-    s = scenario(seed, duration=300.0, rate=8.0)
-    sim = s.simulate(PAPER_ORDER)
-    flight = sim.flight()
-    (clean,) = observe_flights([replace(flight, outputs=dict(sim.outputs_noise_free))], s.sheet)
-
-    def fitted(*flights: Flight) -> ChannelVariance:
-        observed = observe_flights(flights, s.sheet)
-        return ChannelVariance.of(fit(load_packaged(), s.sheet, observed, candidates=False))
-
-    first, band = fitted(flight), (0.0, next_motion.HIGHEST * s.rate)
-    tones = next_motion.list_tones(s.sheet.spin_frequency, next_motion.LIMITS, band)
-    designed = next_motion.find_motion(first.known, first.weigh_variance, tones, RUN)
-    even = next_motion.share_evenly(tones)
-    found = {}
-    for name, motion, times in (
-        ("none", (), 0),
-        ("designed", designed, 1),
-        *(("even", even, n) for n in (1, 2, 4)),
-    ):
-        c = fitted(flight, fly_sinusoids(s, motion, times * RUN)) if times else first
-        f = c.known.f
-        left = compute_residual(
-            f.model, clean, f.calibration.p
-        )  # what the parameters are wrong by: without noise
-        g = demodulate_residual(left[0], clean.record, f.k_ggi)
-        g = g[np.isfinite(g)]
-        error = [np.sqrt(np.mean(x**2)) for x in (g.real, g.imag)]
-        found[name, times * RUN] = np.array([c.rms(c.known.root), error])
-    return found
-
-
-def print_calibrations(seeds: Sequence[int] = range(8)) -> None:
-    """Root mean squares over instruments."""
-    every = [calibrate_by_runs(seed) for seed in seeds]
-    print(f"{len(every)} instruments, flight of 300 s and a run; inline, cross, Eo: uncertain by, wrong by")
-    for name, duration in every[0]:
-        sure, error = np.sqrt(np.mean([x[name, duration] ** 2 for x in every], axis=0))
-        print(f"{name:9} {duration:5.0f} s  {sure[0]:.3f} {sure[1]:.3f}  {error[0]:.3f} {error[1]:.3f}")
-
-
 if __name__ == "__main__":
-    (print_calibrations if sys.argv[1:] == ["--calibration"] else print_gains)()
+    print_gains()

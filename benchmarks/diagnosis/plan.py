@@ -123,22 +123,11 @@ def spec(kind: str, index: int, sample: int) -> Spec:
 
 @dataclass(frozen=True)
 class World:
-    """A flight before anything is hidden in it.
+    """A flight before anything is hidden in it: sheet, instrument, motion, gravity and auxiliaries (the noise of ``scenario`` is ``None``).
 
-    Attributes
-    ----------
-    scenario
-        Sheet, instrument, motion, gravity and auxiliaries; its noise is ``None``.
-    known
-        The true instrument, as sure of itself as a sheet is, for the oracle: what it must absorb is small.
-    density
-        Of the white noise of an accelerometer, (m/s^2)^2/Hz.
-    output
-        ``G_out``, ``voltages`` or ``channels``.
-    gradient
-        Whether it is recorded.
-    start
-        Of the record, s.
+    ``known`` is the true instrument, as sure of itself as a sheet is, for the oracle: what it must absorb is small. ``density`` is that of
+    the white noise of an accelerometer, (m/s^2)^2/Hz; ``output`` is ``G_out``, ``voltages`` or ``channels``; ``gradient``: whether it is
+    recorded; ``start`` of the record, s.
     """
 
     scenario: Scenario

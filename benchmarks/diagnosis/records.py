@@ -273,24 +273,12 @@ def without_omegadot(x: Table, r: CleanOutput, rng: np.random.Generator) -> Tabl
 
 @dataclass(frozen=True)
 class RecordKind:
-    """A kind of record.
+    """A kind of record: what its ``noise`` is like, the ``change`` that is made to it, and options of ``plan.world``.
 
-    Attributes
-    ----------
-    noise, change
-        What its noise is like, and what else is done to it.
-    known
-        Whether effects are hidden in it, too: their strengths are measured with the noise as it is.
-    tame
-        Whether the promise on false alarms holds for it: its noise is what the model of the noise means to describe, its file whole.
-    allowed
-        Effects that are really there.
-    nothing
-        Whether nothing in it follows the motion: ``adequate`` is wrong.
-    world
-        Options of ``plan.world``.
-    by_name
-        Whether it is flown only where it is asked for (``--record``): it was not there when the seeds were chosen.
+    ``known``: effects are hidden in it, too: their strengths are measured with the noise as it is. ``tame``: the promise on false alarms
+    holds for it: its noise is what the model of the noise means to describe, its file whole. ``allowed``: effects that are really there.
+    ``nothing`` in it follows the motion: ``adequate`` is wrong. ``by_name``: it is flown only where it is asked for (``--record``), as it
+    was not there when the seeds were chosen.
     """
 
     noise: NoiseKind = lambda x, rng: Loudness()
