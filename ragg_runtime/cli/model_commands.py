@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ragg_runtime.base import progress
-from ragg_runtime.base.errors import UserError, one_line, printable
+from ragg_runtime.base.errors import UserError, count, one_line, printable
 from ragg_runtime.base.files import write_text
 from ragg_runtime.cli.main import cli
 from ragg_runtime.cli.shared import (
@@ -261,8 +261,8 @@ def map_command(flight: Path, output: str | None) -> None:
     for note in made.notes:
         click.echo(one_line(f"note: {note}"), err=True)
     if made.questions:
-        count = len(made.questions)
-        click.echo(f'{count} question{"s are" if count > 1 else " is"} open, marked with "?":', err=True)
+        are = "is" if len(made.questions) == 1 else "are"
+        click.echo(f'{count(len(made.questions), "question")} {are} open, marked with "?":', err=True)
         for question in made.questions:
             click.echo(printable(f"  {question}"), err=True)
 

@@ -406,12 +406,9 @@ def take_away(s: State, what: str) -> tuple[str, bytes]:
     return kind, content.encode() if isinstance(content, str) else content
 
 
-def _find_command(s: State, name: str) -> str:
-    return next((c for c in commands(s) if c.startswith(f"ragg {name} ")), f"ragg {name}")
-
-
 def _make_source(s: State, command: str) -> api.Source:
-    return api.Source(_find_command(s, command), s.model, s.fitted)
+    whole = next((c for c in commands(s) if c.startswith(f"ragg {command} ")), f"ragg {command}")
+    return api.Source(whole, s.model, s.fitted)
 
 
 def _write_steps(s: State) -> str:
