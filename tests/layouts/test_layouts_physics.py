@@ -43,10 +43,8 @@ def instrument(name: str, head: str = "", size: float = 1.0) -> Instrument:
 
 def flown(i: Instrument, duration: float = 60.0, **options: Any) -> Flight:
     """A flight of the numerical reference."""
-    motion, gradient = (
-        draw_motion(np.random.default_rng(3), duration),
-        draw_gradient(np.random.default_rng(4)),
-    )
+    motion = draw_motion(np.random.default_rng(3), duration)
+    gradient = draw_gradient(np.random.default_rng(4))
     return simulate(i, motion, duration, 16.0, gravity=gradient, **options).flight(voltages=True)
 
 

@@ -282,10 +282,8 @@ def test_structures_in_a_record_belong_to_it(tmp_path: Path) -> None:
     (table,) = files.read_tables(tmp_path / "two.mat")
     late = {"t": x.time + 0.5, "G_out": x.outputs["G_out"]}
     savemat(tmp_path / "late.mat", {"time": x.time, **x.channels, "ggi": late})
-    assert [t.names for t in files.read_tables(tmp_path / "late.mat")] == [
-        ("time", *x.channels),
-        ("t", "G_out"),
-    ]
+    apart = [t.names for t in files.read_tables(tmp_path / "late.mat")]
+    assert apart == [("time", *x.channels), ("t", "G_out")]
     assert table.names == ("time", *x.channels, *x.outputs)
     axes = [f"{n}_{k}" for n in ("acc", "imu_gyro") for k in "xyz"]
     assert first.names == ("t", *axes) and [t.part for t in rest] == ["/log/set", "/log/imu/late"]
