@@ -528,7 +528,7 @@ def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...
     """What the record determines of the parameters, their ``values``, and their correlations, as folded sections."""
     seen, total = count_directions(f)
     known = f"{seen} of {total} directions of the calibrated parameters are determined by this record"
-    text = [f"{known}; the others stay at their test-sheet values."]
+    text = ["The other directions stay at their test-sheet values."]
     if unseen := list_unseen(f):
         text.append(f"Not observable: {', '.join(unseen)}.")
     matrix, pairs = correlate_parameters(f)

@@ -302,7 +302,7 @@ def describe_values(effects: Sequence[Json], *, explained: bool = False) -> Sect
     note = "" if explained else " ".join(explain_patterns([p for _, p in clear]))
     found = [Section("Values", table=tabulate(clear, columns, words=3, note=note))] if clear else []
     if hidden := len(every) - len(clear):
-        summary = f"{count(hidden, 'value')} of little significance"
+        summary = f"also {count(hidden, 'value')} of little significance"
         table = tabulate(every, columns, words=3)
         found.append(Section("All values", table=table, detail=True, summary=summary))
     return tuple(found)
@@ -423,7 +423,7 @@ def _write_size(text: str) -> str:
     if found is None:
         return text
     name, value, unit = found.groups()
-    return f"{numbers.parameter(name)} = {numbers.with_unit(number(float(value), 2), unit)}"
+    return f"{numbers.parameter(name)}{numbers.NO_BREAK}={numbers.NO_BREAK}{numbers.with_unit(number(float(value), 2), unit)}"
 
 
 def _untestable(d: Json) -> Sections:

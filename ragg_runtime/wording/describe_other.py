@@ -84,13 +84,25 @@ def tabulate_parameters(
         "its uncertainty": lambda p: numbers.plain(p["sheet_sigma"], 3),
         "shift, σ of the sheet": lambda p: numbers.fixed((p["value"] - p["sheet"]) / p["sheet_sigma"], 2),
     }
-    note, summary = " ".join(explain_patterns(clear)), f"all {len(parameters)} parameters"
+    note = " ".join((*explain_patterns(clear), *_explain_single(parameters)))
+    summary = f"all {len(parameters)} parameters"
     best = tabulate(clear, value, words=2, note=note)
     every = tabulate(parameters, value | sheet, words=2)
     return (
         Section("Best-determined combinations", table=best, detail=detail),
         Section("Every parameter", table=every, detail=True, summary=summary),
     )
+
+
+def _explain_single(parameters: Sequence[Json]) -> list[str]:
+    """Where some accelerometers have a value that others lack: it is not what a fit of all of them calls by the same name."""
+    fitted: dict[str, list[str]] = {}
+    for p in parameters:
+        if p["accelerometer"] is not None:
+            fitted.setdefault(str(p["name"]), []).append(label_parameter(p))
+    most = max(map(len, fitted.values()), default=0)
+    single = [label for labels in fitted.values() if len(labels) < most for label in labels]
+    return [f"Fitted with the other accelerometers' values held: {', '.join(single)}."] if single else []
 
 
 def _drifting(d: Json) -> Sections:

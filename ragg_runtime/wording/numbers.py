@@ -18,6 +18,7 @@ from ragg_runtime.base.series_name import (
 )
 
 THIN = "\u202f"
+NO_BREAK = "\u00a0"
 MINUS = "\u2212"
 ABSENT = "\u2013"
 
@@ -134,7 +135,7 @@ def percent(share: float) -> str:
 _ASCII = str.maketrans(
     {
         MINUS: "-", THIN: " ", ABSENT: "-", "±": "+-", "×": "x", "·": "*", "→": "->", "µ": "u", "∞": "inf", "…": "...", "’": "'",
-        "σ": " sigma", "Σ": "Sigma", "ω": "omega", "Ω": "Omega", "χ": "chi", "ϑ": "vartheta", "β": "beta", "Γ": "Gamma",
+        NO_BREAK: " ", "σ": " sigma", "Σ": "Sigma", "ω": "omega", "Ω": "Omega", "χ": "chi", "ϑ": "vartheta", "β": "beta", "Γ": "Gamma",
         **{c: f"^{n}" for n, c in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")},
     }
 )  # fmt: skip
