@@ -83,6 +83,7 @@ def _made(app: Sphinx, config: Any) -> None:
         "simplified.md": simplified(),
         "experiments.md": write_page([repeat_multifrequency(), repeat_dynamic(), repeat_turbulence()]),
         "benchmark.md": score.page(),
+        "changes.md": (ROOT / "CHANGELOG.md").read_text("utf-8"),
         "commands.md": build.commands(),
         "model-toml.md": build.model_toml(),
     }
