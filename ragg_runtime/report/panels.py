@@ -527,15 +527,17 @@ def list_unseen(f: Fitted) -> list[str]:
 def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...]:
     """What the record determines of the parameters, their ``values``, and their correlations, as folded sections."""
     seen, total = count_directions(f)
-    known = f"{seen} of {total} directions of the calibrated parameters are determined by this record"
-    text = ["The other directions stay at their test-sheet values."]
+    known = f"{seen} of {total} directions"
+    text = [
+        f"{known} of the calibrated parameters are determined by this record; the others stay at their test-sheet values."
+    ]
     if unseen := list_unseen(f):
         text.append(f"Not observable: {', '.join(unseen)}.")
     matrix, pairs = correlate_parameters(f)
     strongest = Table(("parameter", "and", "correlation"), tuple(pairs), words=2)
     lists = (list_combinations(f), list_parameters(f)) if values else None
     return (
-        Section("What the record determines", tuple(text), detail=True, summary=f"{known}."),
+        Section("What the record determines", tuple(text), detail=True, summary=known),
         *(() if lists is None else describe_other.tabulate_parameters(*lists, detail=True)),
         Section("Correlations of the parameters", table=strongest, plots=(matrix,), detail=True),
     )
