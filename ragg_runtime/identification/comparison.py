@@ -257,7 +257,8 @@ def compute_residual(model: Model, o: Observation, p: Array, noise: NoiseModel) 
     """The same of one flight, without what an unknown gradient can be in it."""
 
     def of_segment(rows: slice) -> Array:
-        part, windows = o.part(rows), unknown_gradient.make_windows(o, rows, noise)
+        part = o.part(rows)
+        windows = unknown_gradient.make_windows(o, rows, noise, whitened=False)
         valid = part.record.valid
         e = np.where(valid, part.data - regressors.predict_observed(model, part, p), 0.0)[None]
         return np.asarray(combine_output(o, unknown_gradient.take_out(e, windows, valid))[0])

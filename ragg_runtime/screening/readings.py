@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 from scipy import ndimage
 from scipy.ndimage import binary_dilation, minimum_filter1d
@@ -447,10 +448,11 @@ def _find_usual_moves(moves: Array, there: Mask) -> Array:
     """(N,): the least median of moves from sample to sample, (N - 1,), in a sample's own block and the two beside it."""
     size = min(LOCAL, len(moves))
     pairs = there[1:] & there[:-1]
-    blocks = np.array_split(np.where(pairs, moves, np.nan), len(moves) // size)
-    usual = np.array([np.median(b[np.isfinite(b)]) if np.isfinite(b).any() else 0.0 for b in blocks])
-    usual = minimum_filter1d(usual, 3, mode="nearest")
-    return np.repeat(usual, [len(b) for b in blocks])[np.r_[0 : len(moves), len(moves) - 1]]
+    known = pd.Series(np.where(pairs & np.isfinite(moves), moves, np.nan))
+    sizes = [len(b) for b in np.array_split(moves, len(moves) // size)]
+    usual = known.groupby(np.repeat(np.arange(len(sizes)), sizes)).median().fillna(0.0)
+    least = minimum_filter1d(usual.to_numpy(), 3, mode="nearest")
+    return np.repeat(least, sizes)[np.r_[0 : len(moves), len(moves) - 1]]
 
 
 def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]:
