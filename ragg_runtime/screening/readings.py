@@ -452,7 +452,7 @@ def _find_usual_moves(moves: Array, there: Mask) -> Array:
     sizes = [len(b) for b in np.array_split(moves, len(moves) // size)]
     usual = known.groupby(np.repeat(np.arange(len(sizes)), sizes)).median().fillna(0.0)
     least = minimum_filter1d(usual.to_numpy(), 3, mode="nearest")
-    return np.repeat(least, sizes)[np.r_[0 : len(moves), len(moves) - 1]]
+    return np.asarray(np.repeat(least, sizes)[np.r_[0 : len(moves), len(moves) - 1]], dtype=np.float64)
 
 
 def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]:
