@@ -226,7 +226,9 @@ def describe_disagreement(apart: Sequence[Disagreement]) -> str | None:
             each if all(g.explained for g in apart) else "one set of parameters does not explain all flights"
         )
         said = "; ".join(g.in_words() for g in apart)
-        return f"{lead}: {said}. Was the instrument, its mounting, an axis or a unit changed between them?"
+        return (
+            f"{lead}: {said}. The instrument, its mounting, an axis or a unit may have changed between them"
+        )
     return (
         f"each of the {count} flights is explained separately, but they are inconsistent, and no effect of"
         f" the catalogue explains the difference. Consistent flights: {names}. Was the instrument, its mounting, an axis or a unit"
