@@ -23,8 +23,7 @@ $(STAMP): requirements.lock pyproject.toml
 	@touch $@
 
 demo: $(STAMP)  ## find a hidden effect in a recorded flight, add it, watch the error fall
-	rm -rf demo-output
-	$(BIN)/ragg demo --output demo-output
+	$(BIN)/python -m examples.demo
 
 studio: $(STAMP)  ## open the demonstration in a browser: look, tick, derive, watch the error fall
 	@test -d demo-studio || $(BIN)/ragg new demo-studio > /dev/null

@@ -306,13 +306,14 @@ def make_flight(path: Path) -> None:
     io.write_flight(flight, path)
 
 
-def run_demo(output: Path) -> None:
-    """Run the commands of the loop in ``output``, which must not exist, on a flight that is made there."""
+def run_demo(output: Path, flight: Path | None = None) -> None:
+    """Run the commands of the loop in ``output``, which must not exist, on ``flight`` (else one is made)."""
     if output.exists():
         raise UserError("the folder exists already", where=output, remedy="choose another with --output")
     output.mkdir(parents=True)
-    flight = output / "flight.parquet"
-    make_flight(flight)
+    if flight is None:
+        flight = output / "flight.parquet"
+        make_flight(flight)
     model, report, diagnosis, added = (
         str(output / name) for name in ("model", "report.html", "diagnosis.html", "added.json")
     )
