@@ -16,7 +16,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.calibration import Calibration
 from ragg_runtime.estimation.fitted import Fitted, fit, list_noise_floor, measure_noise_floor
 from ragg_runtime.estimation.least_squares import Linear, add_prior, join
-from ragg_runtime.estimation.observation import observe_flights, shorten_gaps
+from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.regressors import Column, list_base_columns
 from ragg_runtime.estimation.scores import Error, list_errors
 from ragg_runtime.identification import comparison
@@ -103,7 +103,7 @@ def calibrate(model: Model, instrument: Instrument, flights: Sequence[Flight]) -
     UserError
         If the flights are not of this instrument.
     """
-    f = fit(model, instrument, shorten_gaps(observe_flights(flights, instrument)))
+    f = fit(model, instrument, observe_flights(flights, instrument))
     whole, held_out, nominal = comparison.score_with_nominal(f, [np.zeros(f.size), f.fit_held_out()])
     return Calibrated(fitted=f, nominal=nominal.whole, error=whole.whole, holdout=held_out.held_out)
 

@@ -176,7 +176,7 @@ def prepare(
     if kind not in KINDS:
         raise UserError("there is no such calibration", found=repr(kind), expected=", ".join(KINDS))
     flights = tuple(leave_out_gradients(x) for x in flights)
-    observations = observe_flights(flights, instrument)
+    observations = observe_flights(flights, instrument, whole=True)
     seeing = find_seeing(instrument, observations)
     change: CalibrationChange | None = None
     if saved is not None:

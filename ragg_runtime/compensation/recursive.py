@@ -211,7 +211,7 @@ def _follow_flight(
     endings = column_endings(m.instrument.layout.output_names)
     columns: dict[str, NDArray[Any]] = {}
     said = []
-    observations = observe_flights([x], m.instrument)
+    observations = observe_flights([x], m.instrument, whole=True)
     for o in (observations[k] for k in find_seeing(m.instrument, observations)):
         if o.recorded.demodulated:
             raise UserError(

@@ -57,13 +57,18 @@ LONGEST_GAP = 1024
 """Samples of a gap that are kept, four times as many as what is missing is interpolated from: noise is not followed over more."""
 
 
-def observe_flights(flights: Sequence[Flight], instrument: Instrument) -> list[Observation]:
-    """Every output of every flight: several where the layout has several, those that were recorded."""
+def observe_flights(
+    flights: Sequence[Flight], instrument: Instrument, *, whole: bool = False
+) -> list[Observation]:
+    """Every output of every flight: several where the layout has several, those that were recorded.
+
+    Unless ``whole``, they lack the middle of long gaps: there their times jump by as much as was not recorded.
+    """
     found = []
     for n, x in enumerate(flights):
         forms = [find_recorded(x, instrument.layout, k) for k in range(len(instrument.layout.outputs))]
         found += [replace(observe(x, instrument, k), flight=n) for k, form in enumerate(forms) if form]
-    return found
+    return found if whole else [_shorten_gaps(o) for o in found]
 
 
 def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observation:
@@ -119,21 +124,20 @@ def _find_usable(
     return usable
 
 
-def shorten_gaps(observations: Sequence[Observation]) -> list[Observation]:
-    """Observations without the middle of their long gaps: there their times jump by as much as was not recorded."""
-    found = []
-    for o in observations:
-        r = o.record
-        near = ndimage.maximum_filter1d(r.valid, LONGEST_GAP + 1)
-        short = replace(
-            r,
-            time=r.time[near],
-            wide={n: x[near] for n, x in r.wide.items()},
-            valid=r.valid[near],
-            reading=None if r.reading is None else r.reading[near],
-        )
-        found.append(o if near.all() else replace(o, record=short, series=tuple(x[near] for x in o.series)))
-    return found
+def _shorten_gaps(o: Observation) -> Observation:
+    """An observation without the middle of its long gaps."""
+    r = o.record
+    near = ndimage.maximum_filter1d(r.valid, LONGEST_GAP + 1)
+    if near.all():
+        return o
+    short = replace(
+        r,
+        time=r.time[near],
+        wide={n: x[near] for n, x in r.wide.items()},
+        valid=r.valid[near],
+        reading=None if r.reading is None else r.reading[near],
+    )
+    return replace(o, record=short, series=tuple(x[near] for x in o.series))
 
 
 @dataclass(frozen=True)

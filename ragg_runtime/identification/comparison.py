@@ -23,7 +23,7 @@ from ragg_runtime.estimation.fitted import (
     measure_swell,
 )
 from ragg_runtime.estimation.noise import NoiseModel
-from ragg_runtime.estimation.observation import Observation, combine_output, observe_flights, shorten_gaps
+from ragg_runtime.estimation.observation import Observation, combine_output, observe_flights
 from ragg_runtime.estimation.scores import Error, find_whole, list_errors, measure_error
 from ragg_runtime.estimation.unknown_gradient import Block, ModelledOutput
 from ragg_runtime.identification import selection
@@ -201,7 +201,7 @@ def measure_harmonics(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, o
 @one_thread
 def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Comparison:
     """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails."""
-    observations = shorten_gaps(observe_flights(flights, instrument))
+    observations = observe_flights(flights, instrument)
     f = fit(model, instrument, observations)
     calibrated, half, nominal = score_with_nominal(f, [np.zeros(f.size), f.fit_held_out()])
     if calibrated.whole.rms_V > nominal.whole.rms_V:

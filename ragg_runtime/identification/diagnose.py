@@ -13,7 +13,7 @@ import numpy as np
 
 from ragg_runtime.base.progress import one_thread
 from ragg_runtime.estimation.fitted import Fitted, fit, measure_noise_floor, release_held
-from ragg_runtime.estimation.observation import observe_flights, shorten_gaps
+from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.thinning import thin_observations
 from ragg_runtime.identification import next_motion
 from ragg_runtime.identification.claims import Regression, add_shift
@@ -60,7 +60,7 @@ def diagnose(
     ``extend`` derives the model with the chosen effects for the final, nonlinear check, which is linear without it; ``limits`` are
     the largest amplitudes ``a`` (m/s^2) and ``omega`` (rad/s) of a motion to fly next.
     """
-    observations = thin_observations(model, instrument, shorten_gaps(observe_flights(flights, instrument)))
+    observations = thin_observations(model, instrument, observe_flights(flights, instrument))
     f = fit(model, instrument, observations)
     return diagnose_fitted(f, flights, extend, limits)
 

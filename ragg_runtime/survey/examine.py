@@ -20,7 +20,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import digest_sources, versions
 from ragg_runtime.base.progress import one_thread
 from ragg_runtime.estimation.fitted import Fitted, fit
-from ragg_runtime.estimation.observation import observe_flights, shorten_gaps
+from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification.diagnose import diagnose_fitted
 from ragg_runtime.identification.parameters import SEEN, Estimates
@@ -122,7 +122,7 @@ def _diagnose_file(job: Job, file: str) -> Record:
     model = derive.load_model(instrument)
     read = read_flight(path, instrument.g0, accelerometers=instrument.layout, mapping=job.mapped(), line=line)
     flight = screen(model, instrument, read)
-    return _make_record(fit(model, instrument, shorten_gaps(observe_flights([flight], instrument))), flight)
+    return _make_record(fit(model, instrument, observe_flights([flight], instrument)), flight)
 
 
 def _require_same_program(job: Job) -> None:

@@ -16,6 +16,8 @@ from scipy.signal import lfilter
 
 from generated.output_effects import imu_saturation
 from ragg_runtime import api
+from ragg_runtime.compensation.calibrate import calibrate, make_saved
+from ragg_runtime.compensation.frozen import compare_frozen
 from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe, observe_flights
@@ -310,6 +312,9 @@ def test_a_record_of_two_lines_and_a_long_turn_is_judged_by_what_it_has() -> Non
     s = scenario(5, duration=600.0)
     x = s.simulate({}).flight()
     outputs = {n: np.where((x.time > 150.0) & (x.time < 450.0), np.nan, v) for n, v in x.outputs.items()}
-    whole, parts = (compare(load_packaged(), s.sheet, [y]) for y in (x, replace(x, outputs=outputs)))
-    assert parts.adequate, parts.grounds
-    assert parts.noise_floor == pytest.approx(whole.noise_floor, rel=0.1)
+    m, y = load_packaged(), replace(x, outputs=outputs)
+    saved = make_saved(calibrate(m, s.sheet, [x]), [x], "2026-03-01T00:00:00+00:00")
+    whole = compare(m, s.sheet, [x])
+    for parts in (compare(m, s.sheet, [y]), compare_frozen(m, s.sheet, [y], saved).comparison):
+        assert parts.adequate, parts.grounds
+        assert parts.noise_floor == pytest.approx(whole.noise_floor, rel=0.1)
