@@ -220,19 +220,18 @@ def describe_disagreement(apart: Sequence[Disagreement]) -> str | None:
         return None
     names = "; ".join(", ".join(g.flights) for g in apart)
     count = sum(len(g.flights) for g in apart)
+    changed = "The instrument, its mounting, an axis or a unit may have changed between them"
     if any(g.found or not g.explained for g in apart):
         each = f"each of the {count} flights is explained separately, but not all together"
         lead = (
             each if all(g.explained for g in apart) else "one set of parameters does not explain all flights"
         )
         said = "; ".join(g.in_words() for g in apart)
-        return (
-            f"{lead}: {said}. The instrument, its mounting, an axis or a unit may have changed between them"
-        )
+        return f"{lead}: {said}. {changed}"
     return (
         f"each of the {count} flights is explained separately, but they are inconsistent, and no effect of"
-        f" the catalogue explains the difference. Consistent flights: {names}. Was the instrument, its mounting, an axis or a unit"
-        " changed between them? Calibrate each flight to see what differs; diagnose consistent flights together"
+        f" the catalogue explains the difference. Consistent flights: {names}. {changed}. Calibrate each flight to see what"
+        " differs; diagnose consistent flights together"
     )
 
 
