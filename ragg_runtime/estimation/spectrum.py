@@ -18,7 +18,7 @@ from scipy import fft, interpolate, linalg, optimize, signal
 
 from ragg_runtime.base.progress import split_range
 from ragg_runtime.estimation.least_squares import compute_r_factor
-from ragg_runtime.signals.fir import GROUP, fill_gaps, filter_columns, find_nonzero
+from ragg_runtime.signals.fir import GROUP, fill_gaps, filter_columns, find_nonzero, place_valid
 
 Array = NDArray[np.float64]
 
@@ -495,13 +495,6 @@ def fit_columns(
         shapes = [left.coefficients[a:b] @ left.columns[a:b] for a, b in pairwise(ends)]
         left = replace(left, found=found, shapes=np.array(shapes))
     return left
-
-
-def place_valid(rest: Array, valid: NDArray[np.bool_]) -> Array:
-    """(..., N): of valid samples (..., rows), zero where a sample is not valid."""
-    e = np.zeros((*rest.shape[:-1], len(valid)))
-    e[..., valid] = rest
-    return e
 
 
 JUMP = 32.0

@@ -59,6 +59,13 @@ ROUNDING = 1e-9
 """Relative white noise that is added to what is interpolated: the density of a noise may span more than single numbers do."""
 
 
+def place_valid(rest: Array, valid: NDArray[np.bool_]) -> Array:
+    """(..., N): of valid samples (..., rows), zero where a sample is not valid."""
+    e = np.zeros((*rest.shape[:-1], len(valid)))
+    e[..., valid] = rest
+    return e
+
+
 def fill_gaps(columns: Array, there: NDArray[np.bool_], taps: Array, rounding: float = ROUNDING) -> Array:
     """Columns (n, N), with samples that are not ``there`` (N,) such that the filter's output is least; before, these are zero, or near
     what they will be.
