@@ -40,12 +40,10 @@ from ragg_runtime.io.tables import (
 if TYPE_CHECKING:
     import h5py
 
+# columns of one array that are taken apart: accelerations along three axes, voltages of a few discs, a whole flight
 WIDEST = 64
-"""Columns of one array that are taken apart: accelerations along three axes, voltages of a few discs, a whole flight."""
-
+# what a file says about an array: units, _FillValue, valid_range, names of columns
 Attributes = Mapping[str, Any]
-"""What a file says about an array: ``units``, ``_FillValue``, ``valid_range``, names of columns."""
-
 Tree = Mapping[str, Any]
 """Arrays (or pairs of an array and its attributes), texts, and trees, by name: ``units`` is a tree of texts, ``line`` names the line."""
 
@@ -53,13 +51,6 @@ _TITLES = ("columns", "names", "fields", "colheaders", "labels", "channels")
 
 _DEFAULT_FILL = {"f4": 2.0**123 * 0.9375, "f8": 2.0**123 * 0.9375, "i4": -2147483647, "i2": -32767}
 """What NetCDF writes where nothing was written, by type (netcdf.h: NC_FILL_FLOAT ...)."""
-
-_LIMITS = (
-    ("valid_range", 0, np.less),
-    ("valid_range", -1, np.greater),
-    ("valid_min", 0, np.less),
-    ("valid_max", 0, np.greater),
-)
 
 HDF5_MAGIC = b"\x89HDF\r\n\x1a\n"
 
@@ -133,15 +124,9 @@ def make_table(
 ) -> DataTable:
     """A table of those arrays that have the length of ``time`` (or the commonest one); notes say which have not.
 
-    Parameters
-    ----------
-    arrays
-        Name, array and perhaps attributes: (n,), or (n, m), (m, n) with m up to ``WIDEST``, which give ``name_1`` ... ``name_m`` (or
-        ``a_x`` ... of a vector ``a``, or what m texts in an attribute or another array, such as ``colheaders``, say).
-    given
-        Units by name, besides those in the attributes and in the names.
-    about
-        Further fields of the table.
+    Each comes with its name and perhaps attributes: (n,), or (n, m), (m, n) with m up to ``WIDEST``, which give ``name_1`` ... ``name_m``
+    (or ``a_x`` ... of a vector ``a``, or what m texts in an attribute or another array, such as ``colheaders``, say). ``given`` are units
+    by name, besides those in attributes and names; ``about`` further fields of the table.
     """
     given, arrays = given or {}, [(n, read_array(x), dict(*a)) for n, x, *a in arrays]
     numbers = [a for a in arrays if a[1].dtype.kind not in "OSUT"] or arrays  # texts may be names of columns
@@ -154,20 +139,18 @@ def make_table(
         fits = _is_narrow(x.shape) and length in x.shape
         instants = ""
         if x.dtype.kind in "mM":
-            x, instants = _count_seconds(x)
+            x, instants = count_seconds(x)
         values = decode_values(x, attributes) if fits else None
         if values is None:
             why = "neither numbers nor text" if fits else " x ".join(map(str, x.shape)) or "a single value"
             other += [f"{name!r} ({why})"] if name not in lists else []
             continue
         title, unit = read_heading(name)
-        said = [
-            t for k, v in attributes.items() if k.casefold() in ("units", "unit") and (t := _read_text(v))
-        ]
         logical = x.dtype == np.bool_ or attributes.get("MATLAB_class") == b"logical"
-        said = said or [unit or "1" * logical]
+        given_here = (_read_text(v) for k, v in attributes.items() if k.casefold() in ("units", "unit"))
+        said = next(filter(None, given_here), unit or "1" * logical)
         for own, unit, part in _spread(title, values, length, {**lists, **attributes}):
-            unit_of = instants or given.get(own) or given.get(name) or given.get(title) or unit or said[0]
+            unit_of = instants or given.get(own) or given.get(name) or given.get(title) or unit or said
             columns.append(DataColumn(own, unit_of.strip(), part))
     notes = list(about.pop("notes", ()))
     if other:
@@ -234,8 +217,7 @@ def decode_values(values: NDArray[Any], attributes: Attributes) -> NDArray[Any] 
         flags = np.atleast_1d(attributes.get("flag_values", np.arange(len(meanings)))).tolist()
         known = dict(zip(flags, meanings, strict=False))
         return np.array([known.get(int(v), str(v)) for v in values], dtype=object)
-    every = {n: np.ravel(v) for n, v in attributes.items()}
-    said = {n: v for n, v in every.items() if v.dtype.kind in "fiu" and v.size}
+    said = {n: x for n, v in attributes.items() if (x := np.ravel(v)).dtype.kind in "fiu" and x.size}
     nothing = [v for n in ("_FillValue", "missing_value") for v in said.get(n, ()) if np.isfinite(v)]
     if (fill := _DEFAULT_FILL.get(values.dtype.str[1:])) is not None and "DIMENSION_LIST" in attributes:
         nothing.append(fill)
@@ -244,22 +226,22 @@ def decode_values(values: NDArray[Any], attributes: Attributes) -> NDArray[Any] 
     result: NDArray[Any] = values.astype(np.float64)
     if packed:
         result = result * said.get("scale_factor", [1.0])[0] + said.get("add_offset", [0.0])[0]
-    for name, end, is_beyond in _LIMITS:
-        if name in said:
-            # of packed whole numbers the range is one of whole numbers, or of what they encode (NUG, appendix A)
-            encoded = packed and kind in "iu" and said[name].dtype.kind == "f"
-            missing |= is_beyond(result if encoded else values, said[name][end])
+    for name in (n for n in ("valid_range", "valid_min", "valid_max") if n in said):
+        # of packed whole numbers the range is one of whole numbers, or of what they encode (NUG, appendix A)
+        encoded = packed and kind in "iu" and said[name].dtype.kind == "f"
+        x, limits = result if encoded else values, said[name]
+        missing |= (x < limits[0]) & (name != "valid_max") | (x > limits[-1]) & (name != "valid_min")
     result[missing] = np.nan
     return result
 
 
-def _count_seconds(x: NDArray[Any]) -> tuple[Array, str]:
+def count_seconds(x: NDArray[Any]) -> tuple[Array, str]:
     """Instants or elapsed times in seconds, and their unit: instants count from the midnight before the first of them."""
     there = x[~np.isnat(x)]
     if x.dtype.kind == "m":
         return np.where(np.isnat(x), np.nan, x.astype("m8[ns]").astype(np.int64) / 1e9), "s"
     midnight = there[0].astype("M8[D]") if len(there) else np.datetime64("1970-01-01")
-    return _count_seconds(x.astype("M8[ns]") - midnight)[0], f"s since {midnight}"
+    return count_seconds(x.astype("M8[ns]") - midnight)[0], f"s since {midnight}"
 
 
 def _decode_objects(cells: list[Any]) -> NDArray[Any] | None:
@@ -272,11 +254,10 @@ def _decode_objects(cells: list[Any]) -> NDArray[Any] | None:
     return np.array([write_cell(c) for c in cells], dtype=object)
 
 
-def _read_text(value: object) -> str:
+def _read_text(value: Any) -> str:
     """The text of an attribute; ``""`` where it is none."""
-    if isinstance(value, np.ndarray) and value.size == 1:
-        value = value.ravel()[0]
-    return write_cell(value) if isinstance(value, str | bytes) else ""
+    first = np.ravel(value)[0] if np.size(value) == 1 else ""
+    return write_cell(first) if isinstance(first, str | bytes) else ""
 
 
 def read_frame_units(attributes: Mapping[Any, Any]) -> dict[str, str]:
@@ -338,15 +319,10 @@ def _read_series(series: Any) -> tuple[Any, Attributes]:
     attributes = getattr(series, "attrs", {})
     if not hasattr(series, "to_numpy") or not hasattr(series, "index"):
         return series, attributes
-    series = series.astype(object) if str(series.dtype) == "category" else series
-    series = series.infer_objects()
-    kind = getattr(series.dtype, "kind", "O")
-    if kind in "mM":
-        return series.to_numpy(), attributes
-    options = (
-        {"dtype": np.float64, "na_value": np.nan} if kind in "iufb" else {"dtype": object, "na_value": None}
-    )
-    return series.to_numpy(**options), attributes
+    try:
+        return convert_arrow(pa.chunked_array([pa.Array.from_pandas(series)])), attributes
+    except pa.ArrowException:  # cells of several kinds
+        return series.to_numpy(object), attributes
 
 
 # --- Parquet -------------------------------------------------------------------------------------------
@@ -387,8 +363,7 @@ def read_parquet(path: Path) -> list[DataTable]:
         unnamed, joined = field.name.startswith("__index_level_"), field.name.replace(".", "_")
         name = INDEX if unnamed else joined if joined in SI_UNITS else field.name
         index = read_heading(name)[0] if unnamed or field.name in labels else index
-        said = (field.metadata or {}).get(b"units", b"").decode("utf-8", "replace")
-        said = "1" if not said and pa.types.is_boolean(field.type) else said
+        said = read_unit(field) or "1" * pa.types.is_boolean(field.type)
         arrays.append((name, convert_arrow(values), {"units": said}))
     return [make_table(arrays, given, index=index)]
 
@@ -407,13 +382,9 @@ def convert_arrow(column: pa.ChunkedArray) -> NDArray[Any]:
     return np.asarray(np.from_dlpack(whole.fill_null(float("nan")) if whole.null_count else whole))
 
 
-def write_parquet(path: Path, columns: Sequence[DataColumn]) -> None:
-    """Write columns as float64 with their units; NaN becomes null."""
-    arrays = [pa.array(c.values, from_pandas=True) for c in columns]
-    units = [{"units": c.unit} if c.unit else None for c in columns]
-    fields = [pa.field(c.name, x.type, metadata=u) for c, x, u in zip(columns, arrays, units, strict=True)]
-    with path.open("wb") as stream:
-        pq.write_table(pa.Table.from_arrays(arrays, schema=pa.schema(fields)), stream)
+def read_unit(field: pa.Field) -> str:
+    """The unit in the metadata of a field; ``""``: there is none."""
+    return str((field.metadata or {}).get(b"units", b"").decode("utf-8", "replace"))
 
 
 # --- HDF5 and NetCDF -----------------------------------------------------------------------------------
@@ -497,8 +468,7 @@ def _is_column(data: h5py.Dataset) -> bool:
         return False  # references and sequences
     if _DIMENSION in write_cell(data.attrs.get("NAME")):
         return False
-    narrow = len(data.shape) < 2 or (len(data.shape) == 2 and min(data.shape) <= WIDEST)
-    return narrow or data.dtype.names is not None
+    return not data.shape or _is_narrow(data.shape) or data.dtype.names is not None
 
 
 def _read_matlab_text(data: h5py.Dataset) -> str:

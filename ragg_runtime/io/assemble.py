@@ -6,6 +6,7 @@ from collections.abc import Collection, Container, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 
 from derive.names import EXPECTED
 from ragg_runtime.base.errors import UserError, at, count, did_you_mean, is_column, one_line
@@ -33,15 +34,11 @@ from ragg_runtime.io.text_tables import TWO_ROWS
 from ragg_runtime.signals.derivative import NOTE, bridge_gaps, derive_accelerations, predict_missing, runs
 from ragg_runtime.signals.fir import find_step
 
+# longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded
 BRIDGED = 2.0
-"""Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded."""
-
-ENDLESS = 1e100
-"""In SI: beyond it a value counts as missing, as infinity does."""
-
+ENDLESS = 1e100  # in SI: beyond it a value counts as missing, as infinity does
+# share of a file's samples from which on, if something lacks in them, the rest is no evidence
 MOST_UNUSED = 0.5
-"""Share of a file's samples from which on, if something lacks in them, the rest is no evidence."""
-
 _TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplace) is plainly violated
 
 
@@ -181,34 +178,30 @@ def _convert(
 
 
 def _leave_out_doubled(si: dict[str, Array]) -> list[str]:
-    """Leave out rows that are in the file once more, to the last digit, with a note: one was appended to another with an overlap.
-
-    Only where time increases without them; else the message about it says more.
-    """
+    """Leave out rows that are in the file once more, to the last digit: one was appended to another with an overlap."""
     time = si["time"]
     if np.all(np.diff(time) > 0):
         return []
-    rows = np.ascontiguousarray(np.stack([*si.values()], axis=1)).view(np.dtype((np.void, 8 * len(si))))[:, 0]
-    kept = np.sort(np.unique(rows, return_index=True)[1])
-    lost = len(time) - len(kept)
-    if not lost or not np.all(np.diff(time[kept]) > 0):
-        return []
-    first = time[np.setdiff1d(np.arange(len(time)), kept)[0]]
-    si |= {n: x[kept] for n, x in si.items()}
-    return [f"{count(lost, 'row')} that the file has twice left out (the first at t = {first:.10g} s)"]
+    twice = pd.DataFrame(si).duplicated().to_numpy()
+    return _leave_out(si, twice, "that the file has twice", f"at t = {time[np.argmax(twice)]:.10g} s")
 
 
 def _leave_out_misplaced(si: dict[str, Array]) -> list[str]:
-    """Leave out rows whose stamp alone does not lie between those beside it, with a note; where time increases without them."""
+    """Leave out rows whose stamp alone does not lie between those beside it."""
     time = si["time"]
     before, after = time[:-2], time[2:]
     wrong = np.zeros(len(time), dtype=np.bool_)
     wrong[1:-1] = (before < after) & ((time[1:-1] < before) | (time[1:-1] > after))
-    if not wrong.any() or np.any(np.diff(time[~wrong]) <= 0):
+    first = f"after t = {time[np.argmax(wrong) - 1]:.10g} s" if wrong.any() else ""
+    return _leave_out(si, wrong, "whose time stamp is out of order", first)
+
+
+def _leave_out(si: dict[str, Array], wrong: Mask, what: str, first: str) -> list[str]:
+    """Leave out rows with a note, where time increases without them; else the message about it says more."""
+    if not wrong.any() or not np.all(np.diff(si["time"][~wrong]) > 0):
         return []
     si |= {n: x[~wrong] for n, x in si.items()}
-    lost, first = count(int(np.sum(wrong)), "row"), before[wrong[1:-1]][0]
-    return [f"{lost} whose time stamp is out of order left out (the first after t = {first:.10g} s)"]
+    return [f"{count(int(np.sum(wrong)), 'row')} {what} left out (the first {first})"]
 
 
 def _leave_out_impossible(si: dict[str, Array], si_units: Mapping[str, str]) -> list[str]:
@@ -230,18 +223,17 @@ def _require_names(made: DataTable, needed: Sequence[str], what: str) -> None:
     missing = [n for n in needed if n not in made.names]
     if not missing:
         return
-    spare = [n for n in made.names if n not in SI_UNITS]
-    near = did_you_mean(missing[0], spare) if len(missing) == 1 else None
+    near = (
+        did_you_mean(missing[0], [n for n in made.names if n not in SI_UNITS]) if len(missing) == 1 else None
+    )
     raise UserError(
-        f"the columns {', '.join(missing)} are missing"
-        if len(missing) > 1
-        else f"the column {missing[0]} is missing",
+        f"the column{'s' * (len(missing) > 1)} {', '.join(missing)} {'are' if missing[1:] else 'is'} missing",
         where=made.place,
         found=_list_columns(made, made.names),
         expected=f"{what} " + ", ".join(needed),
-        remedy="describe the columns: ragg map FLIGHT -o mapping.toml"
-        if near is None
-        else f"is {near[13:-1]} meant for {missing[0]}?",
+        remedy=f"is {near[13:-1]} meant for {missing[0]}?"
+        if near
+        else "describe the columns: ragg map FLIGHT -o mapping.toml",
     )
 
 
@@ -334,24 +326,21 @@ def _check_gradient(channels: dict[str, Array], notes: list[str]) -> None:
     given = [n for n in GRADIENT if n in channels]
     if given and len(given) < len(GRADIENT):
         notes.append("of the gravity gradient only " + ", ".join(given) + " are given")
-    diagonal = [channels[n] for n in ("Gamma_xx", "Gamma_yy", "Gamma_zz") if n in given]
-    trace = float(np.max(np.abs(np.sum(diagonal, axis=0)))) if len(diagonal) == 3 else 0.0
-    if trace > _TRACE_NOTED:
-        notes.append(f"Gamma_xx + Gamma_yy + Gamma_zz reaches {trace / 1e-9:.3g} Eo; outside matter it is 0")
+    if {"Gamma_xx", "Gamma_yy", "Gamma_zz"} <= channels.keys():
+        trace = float(np.max(np.abs(sum(channels[f"Gamma_{k}{k}"] for k in "xyz"))))
+        if trace > _TRACE_NOTED:
+            notes.append(
+                f"Gamma_xx + Gamma_yy + Gamma_zz reaches {trace / 1e-9:.3g} Eo; outside matter it is 0"
+            )
 
 
 # --- channels of a lower rate --------------------------------------------------------------------------
 
 
+# share of rows without a value from which a channel is one of a lower rate (rather than one with blanks)
 SPARSE = 0.5
-"""Share of rows without a value from which a channel is one of a lower rate (rather than one with blanks)."""
-
-FEWEST_VALUES = 8
-"""Values that are needed to judge a channel."""
-
-BRIDGED_STEPS = 3.0
-"""Longest gap, in steps of the channel, that is interpolated."""
-
+FEWEST_VALUES = 8  # values that are needed to judge a channel
+BRIDGED_STEPS = 3.0  # longest gap, in steps of the channel, that is interpolated
 FEWEST_LEVELS, MOST_LEVELS = 4, 256
 """Levels of a channel that is interpolated between its steps: fewer may be those of a switch, of more the steps are a thousandth of
 the range."""
@@ -362,11 +351,9 @@ sinusoid that is one of eight values in a period; between the values, where half
 fourth of it at most, rms a twentieth."""
 
 
-def interpolate_slow(time: Array, values: Array, at: Array) -> Array | str:
-    """A channel of a lower rate, from its values (n,) and their instants, s, at other ones, (N,).
-
-    NaN before the first value, after the last and in gaps of more than ``BRIDGED_STEPS`` steps. Or why it cannot be interpolated
-    linearly, in words.
+def _interpolate_slow(time: Array, values: Array, at: Array) -> Array | str:
+    """A channel of a lower rate, from its values (n,) and their instants, s, at other ones, (N,): NaN before the first value, after
+    the last and in gaps of more than ``BRIDGED_STEPS`` steps. Or why it cannot be interpolated linearly, in words.
     """
     if len(values) < FEWEST_VALUES:
         return f"it has {count(len(values), 'value')}"
@@ -424,7 +411,7 @@ def _interpolate_auxiliaries(
             continue
         time, values = grid.time[there], placed[name][there]
         values = np.unwrap(values) if si_units[name] == "rad" else values
-        made, lacking = interpolate_slow(time, values, grid.time), count(len(grid.index) - known, "sample")
+        made, lacking = _interpolate_slow(time, values, grid.time), count(len(grid.index) - known, "sample")
         if isinstance(made, str):
             notes.append(f"{name}: without a value at {lacking}; left out: {made}")
             del placed[name]

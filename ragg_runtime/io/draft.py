@@ -15,6 +15,7 @@ import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib import resources
+from itertools import product
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -30,9 +31,7 @@ from ragg_runtime.io.mapping import UNKNOWN
 from ragg_runtime.io.record import ANGULAR_RATE, DEMODULATED, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.tables import DataColumn, DataTable, is_unit, parse_quantities
 
-OUTPUTS = ("G_out", "V_", "inline")
-"""How channels begin of which one must be there."""
-
+OUTPUTS = ("G_out", "V_", "inline")  # how channels begin of which one must be there
 _LOOKED_AT = 20_000  # rows of a sample
 _FEW = 5  # different cells that are no numbers, in a column of numbers
 _TIMES = ("time", "line", "week", "second_of_week", "date", "clock")
@@ -96,7 +95,7 @@ def draft_mapping(path: Path) -> Draft:
     tables, table = _pick(read_tables(path), path)
     table, odd = _read_numbers(table)
     questions: list[str] = []
-    roles = find_roles(table.names)
+    roles = _find_roles(table.names)
     line = next((n for n in table.names if _has(roles[n], "line")), None) if len(tables) == 1 else None
     time, used = _draft_time(table, roles, odd, questions)
     rest = [c for c in table.columns if c.name not in (line, *used)]
@@ -140,20 +139,21 @@ def _pick(tables: Sequence[DataTable], path: Path) -> tuple[list[DataTable], Dat
     tables = [t for t in tables if t.columns]
     if not tables:
         raise UserError("the file holds no table", where=path, expected="vectors of numbers of one length")
-    best = max(tables, key=lambda t: (len({r[0].name for r in find_roles(t.names).values() if r}), len(t)))
+    best = max(tables, key=lambda t: (len({r[0].name for r in _find_roles(t.names).values() if r}), len(t)))
     alike = [t for t in tables if {*t.names} == {*best.names}]
     return alike, replace(alike[0], part=best.part if len(alike) < len(tables) else "")
 
 
 def _read_numbers(table: DataTable) -> tuple[DataTable, dict[str, list[str]]]:
-    """The table with columns of text that are mostly numbers as numbers, and the few cells of them that are none."""
+    """The table with columns of text that are mostly numbers as numbers, and ``null`` for the few cells of them that are none."""
     columns, odd = [], {}
     for c in table.columns:
         if c.is_text:
             numbers, unit, spoiled = parse_quantities(c.values, table.decimal)
             cells = sorted({*c.values[spoiled]})
             if len(cells) <= _FEW and np.mean(np.isfinite(numbers)) > 0.5:
-                odd[c.name] = cells
+                written = ", ".join(f'"{_quoted(t)}"' for t in cells)
+                odd[c.name] = [f"null = [{written}]"] * bool(cells)
                 c = replace(c, unit=unit or c.unit, values=numbers)
         columns.append(c)
     return replace(table, columns=tuple(columns)), odd
@@ -203,7 +203,7 @@ def _draft_time(
     c = min(fits, key=lambda c: (c.name != "time", np.mean(np.diff(c.values) > 0) < 0.5, not c.unit))
     unit, remark = _find_unit(replace(c, unit=c.unit.split(" since ")[0]), "time", questions, "[time]")
     lines = [f'column = "{_quoted(c.name)}"  # {"certain" if c.name == "time" else "likely"}']
-    return [*lines, f'unit = "{unit}"' + f"  # {remark}" * bool(remark), *_draft_null(c, odd)], (c.name,)
+    return [*lines, f'unit = "{unit}"' + f"  # {remark}" * bool(remark), *odd.get(c.name, ())], (c.name,)
 
 
 def _find_instants(table: DataTable, roles: Roles) -> Instants | None:
@@ -216,21 +216,21 @@ def _find_instants(table: DataTable, roles: Roles) -> Instants | None:
     texts = sorted((c for c in table.columns if c.is_text), key=lambda c: not _has(roles[c.name], "time"))
     parts = [(c, find_parts(_first_cell(c))) for c in texts]
     parts += [(c, (True, True)) for c in table.columns if not c.is_text and are_packed(c.values)]
-    whole: list[Instants] = [
+    found: list[Instants] = [
         ((c.name,), _find_form(c), "certain: a date and a time") for c, both in parts if all(both)
     ]
-    clocks: list[Instants] = [
+    date, clock = by_role.get("date"), by_role.get("clock")
+    if date is not None and clock is not None and date is not clock:
+        form = _find_form(date).replace("iso", "date clock")
+        of_their_own = len(np.unique(date.values)) == len(table)
+        pair = (date.name, clock.name), form, "likely: a date and a time of the day"
+        found.insert(len(found) if of_their_own else 0, pair)
+    found += [
         ((c.name,), "clock", "certain: a time of the day, or an elapsed time")
         for c, (_, timed) in parts
         if timed
     ]
-    pairs, date, clock = list[Instants](), by_role.get("date"), by_role.get("clock")
-    if date is not None and clock is not None and date is not clock:
-        form = _find_form(date).replace("iso", "date clock")
-        pairs.append(((date.name, clock.name), form, "likely: a date and a time of the day"))
-        if len(np.unique(date.values)) == len(table):  # instants of their own
-            pairs, whole = [], whole + pairs
-    return next(iter([*pairs, *whole, *clocks]), None)
+    return next(iter(found), None)
 
 
 def _find_form(c: DataColumn) -> str:
@@ -268,25 +268,24 @@ def _take_by_unit(
 ) -> dict[str, tuple[DataColumn, Role]]:
     """Channels that no usual name gives, in any language: the only columns with such a unit, with axes at their ends."""
     found: dict[str, tuple[DataColumn, Role]] = {}
+
+    def list_alike(name: str) -> list[DataColumn]:
+        return [c for c in columns if c.unit and units(9.8).fits(c.unit, SI_UNITS[name])]
+
     for names in (SPECIFIC_FORCE, ANGULAR_RATE):
         by_stem: dict[str, dict[str, DataColumn]] = {}
-        for c in _of_unit(columns, SI_UNITS[names[0]]):
+        for c in list_alike(names[0]):
             by_stem.setdefault(c.name[:-1], {})[c.name[-1].lower()] = c
         triads = [t for t in by_stem.values() if set(t) == set("xyz")]
         if len(triads) == 1 and not taken.keys() & {*names}:
             for n in names:
                 found[n] = triads[0][n[-1]], Role(n, "guess", why="by its unit and axis")
     for name in ("G_out", "pressure"):
-        alike = _of_unit(columns, SI_UNITS[name])
+        alike = list_alike(name)
         beside = OUTPUTS if name == "G_out" else (name,)
         if len(alike) == 1 and not any(n.startswith(beside) for n in taken):
             found[name] = alike[0], Role(name, "guess", why="the only column with such a unit")
     return found
-
-
-def _of_unit(columns: Sequence[DataColumn], si_unit: str) -> list[DataColumn]:
-    """The columns in a unit of this dimension."""
-    return [c for c in columns if c.unit and units(9.8).fits(c.unit, si_unit)]
 
 
 def _draft_channel(
@@ -296,13 +295,7 @@ def _draft_channel(
     unit, remark = _find_unit(c, name, questions, f"[columns] {name}")
     further = [f"scale = {role.scale:g}"] if role.scale != 1.0 else []
     comment = role.sure + (f": {role.why}" if role.why else "") + (f"; {remark}" if remark else "")
-    return f"{_key(name)} = {_entry(c.name, unit, *further, *_draft_null(c, odd))}  # {comment}"
-
-
-def _draft_null(c: DataColumn, odd: Mapping[str, Sequence[str]]) -> list[str]:
-    """The code of missing values in a column: its cells that are not numbers."""
-    cells = ", ".join(f'"{_quoted(t)}"' for t in odd.get(c.name, ()))
-    return [f"null = [{cells}]"] if cells else []
+    return f"{_key(name)} = {_entry(c.name, unit, *further, *odd.get(c.name, ()))}  # {comment}"
 
 
 def _find_unit(c: DataColumn, name: str, questions: list[str], where: str) -> tuple[str, str]:
@@ -339,22 +332,15 @@ def _quoted(text: str) -> str:
 # --- what a name says ----------------------------------------------------------------------------------
 
 
-def find_roles(columns: Sequence[str]) -> dict[str, tuple[Role, ...]]:
-    """What the columns of a table may be: column -> its roles, the surest first.
-
-    Parameters
-    ----------
-    columns
-        Names, without the units behind them.
-    """
+def _find_roles(columns: Sequence[str]) -> Roles:
+    """What columns may be by their names without units: column -> its roles, the surest first."""
     found = {c: _read_name(c) for c in columns}
     taken = {(r.name, r.direction) for roles in found.values() for r in roles if r.direction}
     axes: dict[tuple[str, str], tuple[str, str]] = {}
-    for stem in ("a", "omega", "omegadot", "B"):
-        for frame in reversed(_FRAMES):
-            four = frame == ["1", "2", "3"] and (stem, "4") in taken  # the disc's own accelerometers
-            if all((stem, d) in taken for d in frame) and not four:
-                axes |= {(stem, d): (x, ", ".join(frame)) for d, x in zip(frame, "xyz", strict=True)}
+    for stem, frame in product(("a", "omega", "omegadot", "B"), reversed(_FRAMES)):
+        four = frame == ["1", "2", "3"] and (stem, "4") in taken  # the disc's own accelerometers
+        if all((stem, d) in taken for d in frame) and not four:
+            axes |= {(stem, d): (x, ", ".join(frame)) for d, x in zip(frame, "xyz", strict=True)}
     return {c: tuple(sorted(_turn(roles, axes), key=lambda r: r.rank)) for c, roles in found.items()}
 
 

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 import pyarrow.csv
-from numpy.typing import NDArray
+import pyarrow.parquet as pq
 
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import file_digest, opened, replacing
@@ -24,56 +24,59 @@ from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.arrays import (
+    convert_arrow,
     read_hdf5,
     read_matlab,
     read_netcdf,
     read_parquet,
+    read_unit,
     tabulate,
-    write_parquet,
 )
 from ragg_runtime.io.assemble import make_flight
 from ragg_runtime.io.mapping import Mapped, join_parts, make_recordings, read_quantities
 from ragg_runtime.io.record import SI_UNITS, Flight, content, is_disc_angle
 from ragg_runtime.io.sampling import make_grid
-from ragg_runtime.io.tables import DataColumn, DataTable, find_decimal
+from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.io.text_tables import read_csv, read_excel
 
-PAPER_G = 9.8
-"""m/s^2: the g of units such as mg where no model says its own."""
-
-MOST_GAPS = 20
-"""Gaps that are listed, the longest ones."""
+PAPER_G = 9.8  # m/s^2: the g of units such as mg where no model says its own
+MOST_GAPS = 20  # gaps that are listed, the longest ones
 
 # --- formats -------------------------------------------------------------------------------------------
 
 
-def write_csv(path: Path, columns: Sequence[DataColumn]) -> None:
+def write_csv(path: Path, table: pa.Table) -> None:
     """Write columns exactly: every number is the shortest that reads back as itself, NaN is left empty."""
     header = io.StringIO()
-    titles = [f"{c.name} [{c.unit}]" if c.unit else c.name for c in columns]
+    titles = [f"{f.name} [{unit}]" if (unit := read_unit(f)) else f.name for f in table.schema]
     csv.writer(header, lineterminator="\n").writerow(titles)
-    arrays = [pa.array(c.values, from_pandas=True) for c in columns]
-    table = pa.Table.from_arrays(arrays, names=[str(k) for k in range(len(arrays))])
     compressed = path.name.lower().endswith(".gz")
     with path.open("wb") as raw, pa.CompressedOutputStream(raw, "gzip") if compressed else raw as stream:
         stream.write(header.getvalue().encode())
         pyarrow.csv.write_csv(table, stream, pyarrow.csv.WriteOptions(include_header=False))
 
 
-def write_netcdf(path: Path, columns: Sequence[DataColumn]) -> None:
+def write_netcdf(path: Path, table: pa.Table) -> None:
     """Write columns as variables along ``time``, float64 or texts."""
     import h5netcdf  # slow to import, and only this format needs it
     import h5py
 
     whole = io.BytesIO()  # where a disc is full HDF5 crashes as the process ends
     with h5netcdf.File(whole, "w") as file:
-        file.dimensions = {"time": len(columns[0].values)}
-        for c in columns:
-            missing = None if c.is_text or c.name == "time" else np.nan
-            kind = h5py.string_dtype() if c.is_text else np.float64
-            variable = file.create_variable(c.name, ("time",), kind, c.values, fillvalue=missing)
-            variable.attrs.update({"units": c.unit} if c.unit else {})
+        file.dimensions = {"time": len(table)}
+        for field, values in zip(table.schema, map(convert_arrow, table.columns), strict=True):
+            is_text = values.dtype == object
+            missing = None if is_text or field.name == "time" else np.nan
+            kind = h5py.string_dtype() if is_text else np.float64
+            variable = file.create_variable(field.name, ("time",), kind, values, fillvalue=missing)
+            variable.attrs.update({"units": unit} if (unit := read_unit(field)) else {})
     path.write_bytes(whole.getbuffer())
+
+
+def write_parquet(path: Path, table: pa.Table) -> None:
+    """Write columns as float64 with their units; NaN is null."""
+    with path.open("wb") as stream:
+        pq.write_table(table, stream)
 
 
 @dataclass(frozen=True)
@@ -83,7 +86,7 @@ class Format:
     name: str
     endings: tuple[str, ...]
     read: Callable[[Path], list[DataTable]]
-    write: Callable[[Path, Sequence[DataColumn]], None] | None = None
+    write: Callable[[Path, pa.Table], None] | None = None
 
 
 FORMATS = (
@@ -96,8 +99,8 @@ FORMATS = (
     Format("Excel", (".xlsx", ".xlsm"), read_excel),
 )
 
+# file name endings and the format that they stand for
 ENDINGS: Mapping[str, Format] = {e: f for f in FORMATS for e in f.endings}
-"""File name endings and the format that they stand for."""
 
 
 def find_ending(name: str) -> str | None:
@@ -122,9 +125,8 @@ def find_format(path: Path, *, write: bool = False) -> Format:
 def read_tables(source: Any) -> list[DataTable]:
     """All tables of a file, by the ending of its name, or of a flight in memory."""
     try:
-        tables = _read_file(source) if isinstance(source, Path) else tabulate(source)
-        decimals = [t.decimal or find_decimal(c.values for c in t.columns if c.is_text) for t in tables]
-        return [join_parts(read_quantities(t, d)) for t, d in zip(tables, decimals, strict=True)]
+        tables = _read_file(Path(source)) if isinstance(source, str | Path) else tabulate(source)
+        return [join_parts(read_quantities(t)) for t in tables]
     except MemoryError:
         what = "the file is damaged, or too large for the memory of this computer"
         raise UserError(what, where=source, remedy="copy it again, or split it") from None
@@ -148,9 +150,10 @@ def _read_file(path: Path) -> list[DataTable]:
 # --- reading -------------------------------------------------------------------------------------------
 
 
-def read_recordings(source: Path | str, mapping: Mapped | None = None) -> list[DataTable]:
-    """The records in a file, one for each line; see :func:`.recording.make_recordings`."""
-    return make_recordings(read_tables(Path(source)), Path(source), mapping)
+def read_recordings(source: Any, mapping: Mapped | None = None, name: str = "flight") -> list[DataTable]:
+    """The records in a file or in memory, one for each line; see :func:`.mapping.make_recordings`."""
+    place = Path(source) if isinstance(source, str | Path) else name
+    return make_recordings(read_tables(source), place, mapping)
 
 
 def read_flights(
@@ -185,7 +188,7 @@ def read_flights(
         Of a flight in memory.
     """
     path = Path(source) if isinstance(source, str | Path) else None
-    made = make_recordings(read_tables(path or source), path or name, mapping)
+    made = read_recordings(source, mapping, name)
     digest = None if path is None else file_digest(path)
     title = name if path is None else flight_name(path)
     flights = []
@@ -238,24 +241,20 @@ def write_flight(flight: Flight, path: Path | str) -> None:
 def write_tables(path: Path, tables: Sequence[DataTable]) -> None:
     """Write tables in the format of the name's ending, whole or not at all; lines are distinguished by a column ``line``."""
     write = find_format(path, write=True).write
+    assert write is not None
+    parts = list(map(_to_arrow, tables))
     with replacing(path) as temporary:
-        assert write is not None
-        write(temporary, _join_tables(tables))
+        write(temporary, pa.concat_tables(parts, promote_options="default") if len(parts) > 1 else parts[0])
 
 
-def _join_tables(tables: Sequence[DataTable]) -> list[DataColumn]:
-    """The columns of all tables one after the other; where they are lines a column ``line`` distinguishes them."""
-    units_of = {c.name: c.unit for t in reversed(tables) for c in t.columns}
-    found: list[DataColumn] = []
-    if any(t.line is not None for t in tables):
-        lines = np.array([t.line or "" for t in tables], dtype=object)
-        found.append(DataColumn("line", "", np.repeat(lines, [len(t) for t in tables])))
-    for n in dict.fromkeys(n for t in tables for n in t.names):
-        parts: list[NDArray[Any]] = [
-            t.column(n).values if n in t.names else np.full(len(t), np.nan) for t in tables
-        ]
-        found.append(DataColumn(n, units_of[n], np.concatenate(parts) if len(parts) > 1 else parts[0]))
-    return found
+def _to_arrow(table: DataTable) -> pa.Table:
+    """The columns with their units, the line's name in front; NaN is null."""
+    line = [] if table.line is None else [DataColumn("line", "", np.full(len(table), table.line, object))]
+    columns = [*line, *table.columns]
+    arrays = [pa.array(c.values, from_pandas=True) for c in columns]
+    units_of = [{"units": c.unit} if c.unit else None for c in columns]
+    fields = [pa.field(c.name, x.type, metadata=u) for c, x, u in zip(columns, arrays, units_of, strict=True)]
+    return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
 
 
 def convert(source: Path, target: Path, mapping: Mapped | None = None) -> dict[str, Any]:
@@ -358,7 +357,7 @@ def _describe_record(r: DataTable, name: str, several: bool) -> dict[str, Any]:
     except (KeyError, UserError):
         pass  # reported in ``refused``
     gaps = [] if grid is None else grid.gaps
-    longest = sorted(sorted(gaps, key=lambda g: -g[2])[:MOST_GAPS])
+    longest = sorted(gaps, key=lambda g: -g["samples"])[:MOST_GAPS]
     return {
         "name": f"{name}:{r.line}" if several else name,
         "line": r.line if several else None,
@@ -368,8 +367,8 @@ def _describe_record(r: DataTable, name: str, several: bool) -> dict[str, Any]:
         "rate_Hz": None if grid is None else 1 / grid.step,
         "origin": None if r.origin is None else write_instant(r.origin),
         "gap_count": len(gaps),
-        "missing": sum(g[2] for g in gaps),
-        "gaps": [dict(zip(("from_s", "to_s", "samples"), g, strict=True)) for g in longest],
+        "missing": sum(g["samples"] for g in gaps),
+        "gaps": sorted(longest, key=lambda g: g["from_s"]),
         "columns": list(map(_describe_column, r.columns)),
         "notes": notes,
         "refused": refused,
@@ -378,6 +377,6 @@ def _describe_record(r: DataTable, name: str, several: bool) -> dict[str, Any]:
 
 def _describe_column(c: DataColumn) -> dict[str, Any]:
     there = c.values[np.isfinite(c.values)]
-    ranges = [float(f(there)) if len(there) else None for f in (np.min, np.max, np.mean)]
+    ranges = ("minimum", there.min), ("maximum", there.max), ("mean", there.mean)
     told = {"name": c.name, "unit": c.unit, "samples": len(there), "missing": len(c.values) - len(there)}
-    return told | dict(zip(("minimum", "maximum", "mean"), ranges, strict=True))
+    return told | {n: float(f()) if len(there) else None for n, f in ranges}

@@ -119,58 +119,48 @@ def parse_order(format_: str) -> str | None:
 def read_stamps(
     columns: Sequence[NDArray[Any]], way: str | None, where: str, row: Callable[[int], str] = "row {}".format
 ) -> Stamps:
-    """The stamps in one or two columns of texts or numbers.
-
-    Parameters
-    ----------
-    columns
-        (n,) each, as :class:`ragg_runtime.io.tables.DataColumn` holds them.
-    way
-        One of :data:`WAYS`, or another order of day, month and year; ``None``: seen from the values.
-    where
-        Place for messages; ``row`` names a row by its position, there too.
-
-    Raises
-    ------
-    UserError
-        At the first stamp that cannot be read, or if day and month could change places.
+    """The stamps in one or two columns of texts or numbers (n,), written in one of :data:`WAYS` or another order of day, month and year
+    (``None``: seen from the values). UserError, with its place ``where`` and its ``row``, at the first that cannot be read, or if day
+    and month could change places.
     """
-    first = columns[0]
+    first, last = columns[0], [_write_clock(v) for v in columns[-1]]
     if way == "gps":
         return _count(_read_gps(first, columns[1], where))
-    texts = [_write_clock(v) for v in columns[-1]]
-    if len(columns) == 2:
-        dates = [_write_date(v) for v in first]
-        texts = [f"{d} {c}" if d and c else "" for d, c in zip(dates, texts, strict=True)]
+    pairs = zip(map(_write_date, first), last, strict=True)
+    texts = last if len(columns) == 1 else [f"{d} {c}" if d and c else "" for d, c in pairs]
     order = None if way is None else parse_order(way)
     fast = _read_iso(texts) if order in (None, "ymd") else None
     return _read_texts(texts, order, where, row) if fast is None else _count(fast)
 
 
-def count_seconds_since(values: Array, epoch: str) -> Stamps | None:
-    """Stamps (n,) since a date as instants; ``None`` if the date is none."""
+def read_epoch(date: str) -> datetime | None:
+    """The instant from which stamps count ``since`` a date; ``None`` if the date is none."""
     try:
-        start = read_stamps([np.array([epoch], dtype=object)], None, "")
+        start = read_stamps([np.array([date], dtype=object)], None, "")
     except UserError:
         return None
-    if start.origin is None:
-        return None
-    return Stamps(values, origin=start.origin + timedelta(seconds=float(start.values[0])))
+    return None if start.origin is None else start.origin + timedelta(seconds=float(start.values[0]))
 
 
 def _count(total: Nanoseconds, dated: bool = True, notes: tuple[str, ...] = ()) -> Stamps:
     """Instants as seconds since the midnight before the first; times of the day (not ``dated``) go on over midnight."""
-    found = np.full(len(total), np.nan)
     there = total != _NONE
-    values = total[there]
-    if not len(values):
-        return Stamps(found, notes=notes)
-    first = int(values[0]) // _DAY if dated else 0
+    if not there.any():
+        return Stamps(np.full(len(total), np.nan), notes=notes)
     if not dated:
-        values = values + np.cumsum(np.diff(values, prepend=values[:1]) < -(_DAY // 2)) * _DAY
-    found[there] = (values - first * _DAY) / _SECOND
-    origin = (_EPOCH + timedelta(days=first)).replace(tzinfo=UTC) if dated else None
-    return Stamps(found, origin=origin, notes=notes)
+        return Stamps(_follow(total, _DAY), notes=notes)
+    first = int(total[there][0]) // _DAY
+    origin = (_EPOCH + timedelta(days=first)).replace(tzinfo=UTC)
+    return Stamps(np.where(there, (total - first * _DAY) / _SECOND, np.nan), origin=origin, notes=notes)
+
+
+def _follow(total: Nanoseconds, period: int) -> Array:
+    """Times that begin anew every day, or every hour, as seconds that go on."""
+    found, there = np.full(len(total), np.nan), total != _NONE
+    values = total[there]
+    again = np.cumsum(np.diff(values, prepend=values[:1]) < -(period // 2))
+    found[there] = (values + again * period) / _SECOND
+    return found
 
 
 def _write_clock(value: Any) -> str:
@@ -214,7 +204,7 @@ def _read_texts(values: Sequence[str], order: str | None, where: str, row: Calla
     if dated and order is None and all(m and _date_in(m) for m in matches.values()):
         order = find_order(dates)
         first = next(iter(dates))
-        if order == "dmy" and _is_year_first(first):
+        if order == "dmy" and _read_date(first, "ymd") not in (None, _read_date(first, "dmy")):
             notes = (
                 f'dates are read as d/m/y, {first} as the day {first[:2]}; otherwise: [time] format = "y/m/d"',
             )
@@ -237,9 +227,8 @@ def _read_texts(values: Sequence[str], order: str | None, where: str, row: Calla
     if leaps:  # the seconds after it have the numbers that they would have had without it
         after = np.arange(len(total)) > leaps[-1]
         total[after & (total != _NONE)] += _SECOND
-    if known and all(m["h"] == _NO_HOUR for m in known.values()):  # minutes and seconds begin anew every hour
-        hours = np.cumsum(np.diff(total, prepend=total[:1]) < -_HOUR // 2) * _HOUR
-        return Stamps(np.where(total == _NONE, np.nan, (total + hours) / _SECOND))
+    if known and all(m["h"] == _NO_HOUR for m in known.values()):
+        return Stamps(_follow(total, _HOUR))
     if not dated and any(m["days"] or int(m["h"]) > 23 for m in known.values()):
         return Stamps(np.where(total == _NONE, np.nan, total / _SECOND), instants=False)
     return _count(total, dated, notes + ("a leap second (hh:mm:60) is counted",) * bool(leaps))
@@ -255,50 +244,32 @@ def _read_clock(m: re.Match[str]) -> int | None:
     days = int(m["days"] or 0) * _DAY
     if m["h"] is None:
         return days if m["days"] or m["date"] else None
-    hours = int(m["h"])
-    if hours > 24 and m["date"] is not None:
+    hours, dated = int(m["h"]), m["date"] is not None
+    if m["half"] and 1 <= hours <= 12:
+        hours = hours % 12 + 12 * (m["half"] in "pP")
+    elif m["half"] or (dated and hours > 24):
         return None
-    if m["half"] is not None:
-        if not 1 <= hours <= 12:
-            return None
-        hours = hours % 12 + (12 if m["half"] in "pP" else 0)
-    total = ((hours * 60 + int(m["m"])) * 60 + int(m["s"] or 0)) * _SECOND + int(
-        ((m["f"] or "") + "0" * 9)[:9]
-    )
-    zone = m["zone"] or ""
-    if zone[:1] in ("+", "-") and m["date"] is not None:
-        total -= int(zone[0] + "1") * (int(zone[1:3]) * 60 + int(zone[3:].lstrip(":") or 0)) * 60 * _SECOND
-    return total + days
+    zone, minutes = m["zone"] or "", hours * 60 + int(m["m"])
+    if zone[:1] in ("+", "-") and dated:
+        minutes -= int(zone[0] + "1") * (int(zone[1:3]) * 60 + int(zone[3:].lstrip(":") or 0))
+    return days + (minutes * 60 + int(m["s"] or 0)) * _SECOND + int(f"{m['f'] or '':0<9.9}")
 
 
 def find_order(values: Iterable[Any]) -> str | None:
     """``ymd``, ``dmy`` or ``mdy`` of stamps as text, by all their dates; ``None`` where two are possible."""
     matches = (_match(str(t).strip()) for t in dict.fromkeys(values))
-    dates = dict.fromkeys(_date_in(m) for m in matches if m)
-    numbers = [m for d in dates if (m := _NUMBERS.fullmatch(d))]
-    if all(len(m[1]) == 4 for m in numbers) or _follow_as_years(m[0] for m in numbers):
+    dates = [*dict.fromkeys(d for m in matches if m and (d := _date_in(m)))]
+    days = {o: [_read_date(d, o) for d in dates] for o in ("ymd", "dmy", "mdy")}
+    numbers = filter(None, map(_NUMBERS.fullmatch, dates))
+    if any(m[2] == "." for m in numbers) and None not in days["dmy"]:  # with dots the day is first
+        del days["mdy"]
+    known = {o: [x for x in found if x is not None] for o, found in days.items() if None not in found}
+    if len({tuple(found) for found in known.values()}) < 2:
+        return next(iter(known), "dmy")
+    spans = {o: max(found) - min(found) for o, found in known.items()}
+    if spans.pop("ymd", np.inf) < spans.get("dmy", np.inf):  # 26/03/01, 26/03/02
         return "ymd"
-    if any(m[2] == "." or int(m[1]) > 12 for m in numbers):  # with dots the day is first
-        return "dmy"
-    return "mdy" if any(int(m[3]) > 12 for m in numbers) else None
-
-
-def _is_year_first(date: str) -> bool:
-    """Whether the year, of two digits, could be first: 26/03/01."""
-    m = _NUMBERS.fullmatch(date)
-    return m is not None and max(len(m[1]), len(m[4])) == 2 and _read_date(date, "ymd") is not None
-
-
-def _follow_as_years(dates: Iterable[str]) -> bool:
-    """Whether dates are nearer to each other with the year first: 26/03/01, 26/03/02."""
-    texts = [*dates]
-    if not all(map(_is_year_first, texts)):
-        return False
-    spans = []
-    for order in ("ymd", "dmy"):
-        days = [d for t in texts if (d := _read_date(t, order)) is not None]
-        spans.append(max(days) - min(days) if len(days) == len(texts) else np.inf)
-    return spans[0] < spans[1]
+    return next(iter(spans)) if len(spans) == 1 else None
 
 
 def _read_date(text: str, order: str) -> int | None:
@@ -324,14 +295,13 @@ def _read_gps(week: NDArray[Any], second: NDArray[Any], where: str) -> Nanosecon
     if week.dtype.kind != "f" or second.dtype.kind != "f":
         raise _unreadable(where, (second if week.dtype.kind == "f" else week)[0], "as week and seconds")
     there = np.isfinite(week) & np.isfinite(second)
-    w, s = np.where(there, week, 0.0), np.where(there, second, 0.0)
+    w, s = np.where(there, (week, second), 0.0)
     wrong = (w != np.rint(w)) | (w < 0) | (w > 9999) | (s < 0) | (s > 604800 + 1)
     if wrong.any():
-        raise _unreadable(
-            where, f"week {w[wrong][0]:g}, {s[wrong][0]:g} s", "as a whole week and seconds in it"
-        )
-    start = int(GPS_EPOCH.timestamp()) * _SECOND
-    return np.where(there, start + w.astype(np.int64) * 7 * _DAY + np.rint(s * 1e9).astype(np.int64), _NONE)
+        found = f"week {w[wrong][0]:g}, {s[wrong][0]:g} s"
+        raise _unreadable(where, found, "as a whole week and seconds in it")
+    weeks = int(GPS_EPOCH.timestamp()) * _SECOND + w.astype(np.int64) * 7 * _DAY
+    return np.where(there, weeks + np.rint(s * 1e9).astype(np.int64), _NONE)
 
 
 def _unreadable(where: str, found: object, row: str) -> UserError:

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+import pandas as pd
 
 from ragg_runtime.base.errors import (
     UserError,
@@ -31,7 +31,8 @@ from ragg_runtime.base.errors import (
 from ragg_runtime.base.files import read_text
 from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
 from ragg_runtime.instrument.units import units
-from ragg_runtime.io.instants import WAYS, Stamps, are_packed, count_seconds_since, parse_order, read_stamps
+from ragg_runtime.io.arrays import count_seconds
+from ragg_runtime.io.instants import WAYS, are_packed, parse_order, read_epoch, read_stamps
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE, Mask
 from ragg_runtime.io.tables import (
     INDEX,
@@ -39,13 +40,13 @@ from ragg_runtime.io.tables import (
     DataColumn,
     DataTable,
     find_codes,
+    find_decimal,
     is_quantity,
     parse_quantities,
     write_cell,
 )
 
-UNKNOWN = "?"
-"""What ``ragg map`` writes where the answer is not in the file."""
+UNKNOWN = "?"  # what ragg map writes where the answer is not in the file
 
 _KEYS: Mapping[str, tuple[str, ...]] = {
     "file": ("line", "lines", "part", "null", "format"),
@@ -54,8 +55,7 @@ _KEYS: Mapping[str, tuple[str, ...]] = {
     "columns": ("column", "unit", "sign", "scale", "offset", "null"),
 }
 
-Null = tuple[float | str, ...]
-"""What stands for a missing value: numbers in the file's unit, or texts."""
+Null = tuple[float | str, ...]  # what stands for a missing value: numbers in the file's unit, or texts
 
 
 @dataclass(frozen=True)
@@ -255,15 +255,10 @@ def _read_axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], .
 
 # --- the flights in a file ------------------------------------------------------------------------------
 
-NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
-"""Columns that every flight has."""
-
-PARTS = ("year", "month", "day", "hour", "minute", "second")
-"""Columns that are together the time of a sample."""
-
+NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)  # columns that every flight has
+PARTS = ("year", "month", "day", "hour", "minute", "second")  # columns that are together the time of a sample
+# lines of a file, beyond which the column does not name lines: the largest surveys have some thousands
 MOST_LINES = 20_000
-"""Lines of a file, beyond which the column does not name lines: the largest surveys have some thousands."""
-
 _LOOKED_AT = 600  # cells that tell whether a column of texts is one of numbers
 _COMPONENT = re.compile(r"(?:(a|omega|omegadot|B|mass)_[xyz]|Gamma_[xyz]{2})")
 
@@ -273,21 +268,10 @@ def make_recordings(
     place: Path | str,
     mapping: Mapped | None = None,
 ) -> list[DataTable]:
-    """The flights in the tables of one file, one for each line: numbers in the file's units.
+    """The flights in the tables of one file (its ``place``, for messages), one for each line: numbers in the file's units.
 
-    Parameters
-    ----------
-    tables
-        All tables of the file.
-    place
-        The file, for messages.
-    mapping
-        What the columns are; ``None``: they have the names of the contract.
-
-    Raises
-    ------
-    UserError
-        If a choice among tables is needed, or a column is missing, or holds what is no number.
+    Without a mapping the columns have the names of the contract. UserError if a choice among tables is needed, or a column is missing,
+    or holds what is no number.
     """
     if mapping is not None and mapping.kept and not _applies(tables, mapping):
         mapping = None
@@ -335,14 +319,11 @@ def _read_plain(table: DataTable) -> DataTable:
     notes = list(table.notes)
     by_name = {c.name: c for c in reversed(table.columns)}
     time, index = by_name.get("time"), by_name.get(table.index or "")
-    if (
-        time is None
-        and index is not None
-        and (not index.is_number or units(9.8).fits(index.unit or "1", "s"))
-    ):
-        time = index
-    elif time is None and index is not None and index.name == INDEX:
-        notes.append("skipped, the index: numbers without a unit; if it is the time, name it time [s]")
+    if time is None and index is not None:
+        if not index.is_number or units(9.8).fits(index.unit or "1", "s"):
+            time = index
+        elif index.name == INDEX:
+            notes.append("skipped, the index: numbers without a unit; if it is the time, name it time [s]")
     found: dict[str, DataColumn] = {}
     for c in table.columns:
         if c is time or c is index:
@@ -366,16 +347,10 @@ def join_parts(table: DataTable) -> DataTable:
     parts = {c.name.casefold(): c for c in table.columns if c.name.casefold() in PARTS and c.is_number}
     if len(parts) < len(PARTS) or "time" in table.names:
         return table
-    numbers = np.stack([parts[n].values for n in PARTS])
-    year, month, day, hour, minute, second = np.where(np.isfinite(numbers).all(axis=0), numbers, np.nan)
-    known = np.isfinite(year)
-    months = (12 * (year[known] - 1970) + month[known] - 1).astype("M8[M]")
-    dates = months.astype("M8[D]") + (day[known] - 1).astype("m8[D]")
-    midnight = dates.min(initial=np.datetime64("2100-01-01"))
-    time = (hour * 60 + minute) * 60 + second
-    time[known] += (dates - midnight).astype("m8[s]").astype(np.float64)
+    stamps = pd.to_datetime(pd.DataFrame({n: parts[n].values for n in PARTS}), errors="coerce")
+    seconds, unit = count_seconds(stamps.to_numpy())
     others = (c for c in table.columns if c not in parts.values())
-    return replace(table, columns=(DataColumn("time", f"s since {midnight}", time), *others))
+    return replace(table, columns=(DataColumn("time", unit, seconds), *others))
 
 
 def _read_mapped(table: DataTable, mapping: Mapped) -> DataTable:
@@ -397,10 +372,11 @@ def _read_columns(
     chosen: Mapping[str, tuple[DataColumn, Entry]],
 ) -> DataTable:
     """Time and channels as numbers: codes and rows without a time left out and counted, factors applied."""
-    notes = list(table.notes)
-    stamps, columns = None, []
+    columns = []
     if times:
-        time, stamps = _read_time(times, table, t)
+        time, table = _read_time(times, table, t)
+    notes = list(table.notes)
+    if times:
         columns.append(_leave_out_codes(time, t.null, notes))
     for name, (c, e) in chosen.items():
         read = replace(_read_numbers(c, table, e.null), name=name, unit=e.unit)
@@ -408,9 +384,6 @@ def _read_columns(
         if (e.factor, e.offset) != (1.0, 0.0):
             read = replace(read, values=read.values * e.factor + e.offset)
         columns.append(read)
-    if stamps is not None:
-        table = replace(table, origin=stamps.origin, instants=stamps.instants)
-        notes += stamps.notes
     there = np.isfinite(columns[0].values) if times else np.zeros(0, dtype=np.bool_)
     lost = int(np.sum(~there))
     if 0 < lost < len(there):
@@ -419,10 +392,8 @@ def _read_columns(
     return replace(table, columns=tuple(columns), notes=tuple(notes))
 
 
-def _read_time(
-    columns: Sequence[DataColumn], table: DataTable, t: TimeEntry
-) -> tuple[DataColumn, Stamps | None]:
-    """Time as the numbers that it is, or as seconds of the instants that it is."""
+def _read_time(columns: Sequence[DataColumn], table: DataTable, t: TimeEntry) -> tuple[DataColumn, DataTable]:
+    """Time as the numbers that it is, or as seconds of the instants that it is; and the table with what they count from."""
     first = columns[0]
     where = at(table.place, f"column {first.name!r}")
     few = first.values[:_LOOKED_AT]
@@ -430,16 +401,18 @@ def _read_time(
     numeric = mostly and not are_packed(few)
     if t.format != "seconds" and (t.format is not None or not numeric):
         stamps = read_stamps([c.values for c in columns], t.format, where, table.row)
-        return DataColumn("time", "s", stamps.values), stamps
+        table = replace(
+            table, origin=stamps.origin, instants=stamps.instants, notes=table.notes + stamps.notes
+        )
+        return DataColumn("time", "s", stamps.values), table
     remedy = None if numeric else f"specify the format: [time] format = {', '.join(map(repr, WAYS))}"
     unit, _, epoch = first.unit.partition(" since ")
-    time = replace(
-        _read_numbers(replace(first, unit=unit), table, t.null, remedy), name="time", unit=t.unit or unit
-    )
-    if not epoch:
-        return time, None
-    since = count_seconds_since(units(9.8).to_si(time.values, time.unit, "s", where), epoch)
-    return (time, None) if since is None else (DataColumn("time", "s", since.values), since)
+    read = _read_numbers(replace(first, unit=unit), table, t.null, remedy)
+    time = replace(read, name="time", unit=t.unit or unit)
+    if (origin := read_epoch(epoch) if epoch else None) is not None:
+        seconds = units(9.8).to_si(time.values, time.unit, "s", where)
+        time, table = DataColumn("time", "s", seconds), replace(table, origin=origin, instants=True)
+    return time, table
 
 
 # --- several tables, several lines ----------------------------------------------------------------------
@@ -483,16 +456,13 @@ def split_lines(tables: Sequence[DataTable], column: str | None, where: Path | s
             found=f"{len(different)} values in {len(which)} rows",
             expected=f"at most {MOST_LINES}, or another column in a mapping: [file] line = ...",
         )
-    rows_of: dict[str, list[NDArray[Any]]] = {}
-    ends = np.cumsum(np.bincount(which, minlength=len(different)))[:-1]
-    for value, rows in zip(different, np.split(np.argsort(which, kind="stable"), ends), strict=True):
-        rows_of.setdefault(name_line(value), []).append(rows)
-    notes = table.notes
-    if lost := sum(map(len, rows_of.pop("", []))):
-        notes = (*notes, f"{count(lost, 'row')} without the name of a line left out")
-    rest = replace(table, columns=tuple(x for x in table.columns if x is not c), notes=notes)
-    lines = sorted(((np.sort(np.concatenate(p)), n) for n, p in rows_of.items()), key=lambda x: x[0][0])
-    return [replace(rest.rows(rows), line=n) for rows, n in lines]
+    codes, names = pd.factorize(np.array([name_line(v) for v in different], dtype=object)[which])
+    rows = np.split(np.argsort(codes, kind="stable"), np.cumsum(np.bincount(codes))[:-1])
+    lost = sum(len(r) for r, n in zip(rows, names, strict=True) if not n)
+    note = [f"{count(lost, 'row')} without the name of a line left out"] * bool(lost)
+    others = tuple(x for x in table.columns if x is not c)
+    rest = replace(table, columns=others, notes=(*table.notes, *note))
+    return [replace(rest.rows(r), line=n) for r, n in zip(rows, names, strict=True) if n]
 
 
 def name_line(value: object) -> str:
@@ -507,8 +477,9 @@ def name_line(value: object) -> str:
 # --- numbers and codes -------------------------------------------------------------------------------------------
 
 
-def read_quantities(table: DataTable, decimal: str) -> DataTable:
+def read_quantities(table: DataTable) -> DataTable:
     """A table whose columns of texts that are all numbers, perhaps with units, are; names of lines (10 N) and instants stay texts."""
+    decimal = table.decimal or find_decimal(c.values for c in table.columns if c.is_text)
     found = []
     for c in table.columns:
         first = next((t for t in c.values if t not in MISSING), "") if c.is_text else ""

@@ -60,8 +60,13 @@ SI_UNITS: Mapping[str, str] = MappingProxyType(
 )
 """SI unit of every column whose meaning is fixed. Other auxiliary channels are held in SI base units."""
 
+# most samples in a row that are a spike; a longer excursion is the signal, a longer stretch without samples a gap
 WIDEST_SPIKE = 3
-"""Most samples in a row that are a spike; a longer excursion is the signal, a longer stretch without samples a gap."""
+
+
+SAME_RECORD = "the same record as {}: it would count twice"
+# the note of a segment of time, s, that the user has left out
+LEFT_OUT = "left out by hand: {:g} s to {:g} s"
 
 
 def is_disc_angle(name: str) -> bool:
@@ -173,7 +178,7 @@ class Flight:
         since = self.time - self.time[0]
         for first, last in segments:
             valid[(since >= first) & (since <= last)] = False
-            notes.append(left_out(first, last))
+            notes.append(LEFT_OUT.format(first, last))
         return dataclasses.replace(self, valid=valid, notes=tuple(notes))
 
     def flagged(self, flags: Sequence[Flag]) -> Flight:
@@ -191,11 +196,6 @@ class Flight:
             valid=self.valid[rows],
             lacking=None if self.lacking is None else self.lacking[rows],
         )
-
-
-def left_out(first: float, last: float) -> str:
-    """The note of a segment of time that the user has left out, s."""
-    return f"left out by hand: {first:g} s to {last:g} s"
 
 
 def _read_only(values: ArrayLike, kind: type = np.float64) -> NDArray[Any]:
@@ -220,10 +220,5 @@ def distinct(flights: Sequence[Flight]) -> None:
     for x in flights if len(flights) > 1 else ():
         first = known.setdefault(content(x), x)
         if first is not x:
-            what = same_record(str(first.path or first.name))
+            what = SAME_RECORD.format(first.path or first.name)
             raise UserError(what, where=x.path or x.name, remedy="give each record once")
-
-
-def same_record(name: str) -> str:
-    """In words."""
-    return f"the same record as {name}: it would count twice"

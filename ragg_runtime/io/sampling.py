@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from types import MappingProxyType
 
@@ -14,31 +15,24 @@ from ragg_runtime.base.errors import UserError, at, count
 from ragg_runtime.io.record import Array
 from ragg_runtime.signals.derivative import runs
 
-JITTER_NOTED = 1e-3
-"""Deviation from uniform sampling, in steps, that is worth a note."""
-
+JITTER_NOTED = 1e-3  # deviation from uniform sampling, in steps, that is worth a note
+# error of one step, in steps, from which the samples have to follow a steady clock instead
 JITTER_REFUSED = 0.25
-"""Error of one step, in steps, from which the samples have to follow a steady clock instead."""
-
+# deviation from a steady clock, in steps, from which a record is not uniformly sampled any more
 JITTER_TRACKED = 0.48
-"""Deviation from a steady clock, in steps, from which a record is not uniformly sampled any more."""
-
 _MOST_MISSING = 0.9  # of all samples; beyond it the gaps are not gaps but the file is a collection of pieces
 
+# leaps of the stamps in a record that are named one by one, where they last longer than the record
 FEW_LEAPS = 3
-"""Leaps of the stamps in a record that are named one by one, where they last longer than the record."""
-
 NO_GAPS = 0.05
 """Relative difference of the mean from the median step below which a record may have no gaps: its mean step is then exact."""
 
+# instants from which a line through them is a better clock than the mean step of a record without gaps
 STEADY_FROM = 512
-"""Instants from which a line through them is a better clock than the mean step of a record without gaps."""
-
+# stamps on either side of a place that tell whether a clock was set there, and not one stamp delayed
 BESIDE = 16
-"""Stamps on either side of a place that tell whether a clock was set there, and not one stamp delayed."""
-
+# part of a step by which a clock must have been set for it to be said: an angle of 0.5 mrad at 0.25 Hz and 16 Hz
 SET = 5e-3
-"""Part of a step by which a clock must have been set for it to be said: an angle of 0.5 mrad at 0.25 Hz and 16 Hz."""
 
 COUNTERS: Mapping[float, str] = MappingProxyType(
     {86400.0: "midnight", 604800.0: "the end of the week"}
@@ -51,19 +45,16 @@ COUNTERS: Mapping[float, str] = MappingProxyType(
 """Periods, s, after which time begins anew: seconds of the day or of the GPS week, and counters (millis() and micros() of
 microcontrollers have 32 bits)."""
 
+# part of such a period within which the stamps about its end lie, where some are missing there
 NEAR_END = 0.01
-"""Part of such a period within which the stamps about its end lie, where some are missing there."""
 
 SLEW_PARTS, SLEWED = 64, 8.0
 """Parts of a record whose clock rates are compared, and times their usual difference from the median by which a clock was slewed: NTP
 does so by 500 ppm until it is right."""
 
-MOST_SET = 20
-"""Places at which a clock may have been set in a record; more of them are jitter."""
-
+MOST_SET = 20  # places at which a clock may have been set in a record; more of them are jitter
+# share of rows with the stamp of the row before from which the stamps are too coarse, and not rows doubled
 SHARED = 0.2
-"""Share of rows with the stamp of the row before from which the stamps are too coarse, and not rows doubled."""
-
 _BY_COUNT = "if sampling continued, give the times by the sample count: time = row / {rate:.6g} Hz; else split the record there"
 
 
@@ -83,10 +74,8 @@ class ClockStep:
     ends: float = 0.0
 
     def __str__(self) -> str:
-        where = (
-            f"from t = {self.time:.10g} to {self.ends:.10g} s" if self.until else f"at t = {self.time:.10g} s"
-        )
-        return f"by {self.size:.4g} s {where}"
+        until = f" to {self.ends:.10g}" if self.until else ""
+        return f"by {self.size:.4g} s {'from' if until else 'at'} t = {self.time:.10g}{until} s"
 
 
 @dataclass(frozen=True)
@@ -103,10 +92,14 @@ class Grid:
     notes: tuple[str, ...]
 
     @property
-    def gaps(self) -> list[tuple[float, float, int]]:
-        """Last instant before and first after each gap, s, and the samples that are missing between them."""
+    def gaps(self) -> list[dict[str, float]]:
+        """Last instant before (``from_s``) and first after each gap (``to_s``), and the ``samples`` missing between them."""
         here, jumps = self.time[self.index], np.diff(self.index)
-        return [(float(here[k]), float(here[k + 1]), int(jumps[k] - 1)) for k in np.flatnonzero(jumps > 1)]
+        places = map(int, np.flatnonzero(jumps > 1))
+        return [
+            {"from_s": float(here[k]), "to_s": float(here[k + 1]), "samples": int(jumps[k]) - 1}
+            for k in places
+        ]
 
 
 @np.errstate(over="ignore", invalid="ignore")  # absurd times: what comes of them is refused
@@ -132,12 +125,11 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
         remedy = "split the record at its gaps into one file each"
         leaps = np.flatnonzero(jumps > 1)
         if len(leaps) <= FEW_LEAPS:  # a clock that was set, to summer time or to another day
-            by = ", ".join(f"by {steps[k]:.6g} s at t = {time[k]:.10g} s" for k in leaps)
-            what = f"the time stamps jump {by}: was the clock adjusted?"
+            what = _ask_about(f"by {steps[k]:.6g} s at t = {time[k]:.10g} s" for k in leaps)
             remedy = _BY_COUNT.format(rate=1 / step)
         found = f"{len(time)} samples in {span:.6g} s, with steps of {step:.6g} s"
         raise UserError(what, where=where, found=found, remedy=remedy)
-    if np.sum(jumps > 1) >= BESIDE and (coarse := unround(time, np.arange(len(time)), 1.0)) is not None:
+    if np.sum(jumps > 1) >= BESIDE and (coarse := _unround(time, np.arange(len(time)), 1.0)) is not None:
         raise UserError(
             "the time stamps are too coarse for the sampling rate",
             where=where,
@@ -145,7 +137,7 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
             expected="stamps to half a step, or all rows",
             remedy=_BY_COUNT.format(rate=1 / coarse[2]),
         )
-    rounded = unround(time, index, 1.0 if size == len(time) else 0.5)
+    rounded = _unround(time, index, 1.0 if size == len(time) else 0.5)
     if rounded is None:
         whole = time if size == len(time) else np.interp(np.arange(size), index, time)
         odd = _describe_jitter(time, jumps, off, step)
@@ -192,27 +184,23 @@ def _follow_clock(time: Array, step: float) -> tuple[NDArray[np.int64], Array] |
     """
     whole = float(time[-1] - time[0]) / (len(time) - 1)
     # without gaps the mean step is exact, the median of jittering ones is not; a few per cent of the rows may be missing
-    exact = _track_clock(time, whole, True) if abs(whole / step - 1) < NO_GAPS else None
-    return _track_clock(time, step, False) if exact is None else exact
+    exact = _track_clock(time, whole, STEADY_FROM) if abs(whole / step - 1) < NO_GAPS else None
+    return _track_clock(time, step, 0) if exact is None else exact
 
 
-def _track_clock(time: Array, step: float, exact: bool) -> tuple[NDArray[np.int64], Array] | None:
-    """The same from a first step, s, that is ``exact`` or only about right."""
-    size = 128
-    phase = np.mod((time[:size] - time[0]) / step, 1.0)
+def _track_clock(time: Array, step: float, known: int) -> tuple[NDArray[np.int64], Array] | None:
+    """The same from a first step, s, which is right for that many ``known`` samples: the clock is fitted to ever more of them."""
+    phase = np.mod((time[:128] - time[0]) / step, 1.0)
     lags = np.arange(64) / 64
-    worst = [float(np.max(np.abs((phase - lag + 0.5) % 1.0 - 0.5))) for lag in lags]
-    first = float(time[0] + step * (lags[int(np.argmin(worst))]))
-    while True:
-        t = time[:size]
-        k = np.rint((t - first) / step)
+    worst = np.max(np.abs((phase - lags[:, None] + 0.5) % 1.0 - 0.5), axis=1)
+    first = float(time[0] + step * lags[int(np.argmin(worst))])
+    grown = 128 * 1.5 ** np.arange(50)
+    for size in (*map(int, grown[grown < len(time)]), len(time)):
+        k = np.rint((time[:size] - first) / step)
         if np.any(np.diff(k) < 1):
             return None
-        if len(t) >= STEADY_FROM or size >= len(time) or not exact:
-            step, first = (float(c) for c in np.polyfit(k, t, 1))
-        if size >= len(time):
-            break
-        size += size // 2
+        if size >= min(known, len(time)):
+            step, first = (float(c) for c in np.polyfit(k, time[:size], 1))
     k = np.rint((time - first) / step)
     off = np.abs(time - first - k * step) / step
     if not np.max(np.abs(k)) < 2.0**53 or np.any(np.diff(k) < 1) or np.max(off) > JITTER_TRACKED:
@@ -223,25 +211,11 @@ def _track_clock(time: Array, step: float, exact: bool) -> tuple[NDArray[np.int6
 # --- rounded stamps ------------------------------------------------------------------------------------
 
 
-def unround(
+def _unround(
     time: Array, index: NDArray[np.int64], coarsest: float = 0.5
 ) -> tuple[float, float, float] | None:
-    """The even clock, of which some stamps are roundings.
-
-    Parameters
-    ----------
-    time : (n,) array
-        Stamps, s.
-    index : (n,) array
-        Their places on the grid, from 0.
-    coarsest
-        Steps that the unit may have.
-
-    Returns
-    -------
-    tuple or None
-        Unit to which the stamps were rounded (or cut off), first instant and step, s; ``None`` if they are not the roundings of
-        an even clock. Where the stamps do not determine them, a round rate is taken, and a tick at time 0.
+    """The even clock, of which stamps (n,) at places on the grid (n,) are roundings: their unit, of at most ``coarsest`` steps, first
+    instant and step, s; ``None``: there is none. Where they do not determine it, a round rate is taken, and a tick at time 0.
     """
     unit = _find_unit(time)
     if unit is None:
@@ -249,8 +223,8 @@ def unround(
     step, first = (float(c) for c in np.polyfit(index, time, 1))
     if (plain := _round_rate(step, unit / 2 / float(index[-1]))) != step:
         step, first = plain, float(np.mean(time - plain * index))
-    exact = [x for x in (np.rint(first / step) * step, time[0]) if abs(x - first) <= unit]
-    first = float(exact[0]) if exact else first
+    exact = (x for x in (float(np.rint(first / step) * step), float(time[0])) if abs(x - first) <= unit)
+    first = next(exact, first)
     slack = 1e-6 * unit + 4 * float(np.spacing(np.max(np.abs(time))))
     off = time - first - step * index
     most = np.max(np.abs(off))
@@ -292,10 +266,8 @@ def find_clock_steps(time: Array, present: NDArray[np.bool_]) -> list[ClockStep]
 
     Parameters
     ----------
-    time : (N,) array
-        Instants on the grid of a flight, s.
-    present : (N,) array
-        Samples that the file has; a gap is a place where the stamps moved on.
+    time, present : (N,) array
+        Instants on the grid of a flight, s; samples that the file has: a gap is a place where the stamps moved on.
 
     Returns
     -------
@@ -377,12 +349,11 @@ def fit_even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, floa
 
 
 def _describe_gaps(time: Array, jumps: NDArray[np.int64], step: float) -> list[str]:
-    gaps = jumps - 1
-    if not gaps.any():
+    if np.all(jumps == 1):
         return []
-    places, missing, longest = int(np.sum(gaps > 0)), int(np.sum(gaps)), int(np.argmax(gaps))
+    missing, longest = int(np.sum(jumps - 1)), int(np.argmax(jumps))
     return [
-        f"{count(places, 'gap')}: {missing} of {len(time) + missing} samples missing, the longest lasts"
+        f"{count(int(np.sum(jumps > 1)), 'gap')}: {missing} of {len(time) + missing} samples missing, the longest lasts"
         f" {jumps[longest] * step:.6g} s from t = {time[longest]:.10g} s; not used"
     ]
 
@@ -393,19 +364,23 @@ def _describe_jitter(time: Array, jumps: NDArray[np.int64], off: Array, step: fl
         return []
     was_set = [] if np.any(jumps > 1) else find_clock_steps(time, np.ones(len(time), dtype=np.bool_))
     if was_set:
-        return [f"the time stamps jump {c}: was the clock adjusted?" for c in was_set[:3]]
+        return [_ask_about(was_set)]
     return [
         f"sampling jitters by up to {off[worst]:.2g} of the step of {step:.6g} s (after t = {time[worst]:.10g} s); "
         "samples are used at their own instants, derivatives and spectra on the even grid"
     ]
 
 
+def _ask_about(steps: Iterable[object]) -> str:
+    """Whether a clock was set, by the first of its steps."""
+    return f"the time stamps jump {', '.join(map(str, islice(steps, 3)))}: was the clock adjusted?"
+
+
 def _refuse_uneven(time: Array, steps: Array, step: float, off: Array, where: str) -> UserError:
     row, present = int(np.argmax(off)), np.ones(len(time), dtype=np.bool_)
     what, remedy = "the record is not uniformly sampled", "resample the record to a constant rate"
     if was_set := find_clock_steps(time, present):
-        jumps = ", ".join(str(c) for c in was_set[:3])
-        what = f"the time stamps jump {jumps}: was the clock adjusted?"
+        what = _ask_about(was_set)
         step = fit_even_clock(time, present)[1]
         remedy = _BY_COUNT.format(rate=1 / step)
     return UserError(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
@@ -21,11 +20,8 @@ from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.record import SI_UNITS, Array, Mask
 
-INDEX = "index"
-"""Name of a column that labels the rows and has none."""
-
-SHARE = 0.5
-"""Of the free memory that a table may take: reading and fitting it take as much again."""
+INDEX = "index"  # name of a column that labels the rows and has none
+SHARE = 0.5  # of the free memory that a table may take: reading and fitting it take as much again
 
 _WORDS = (
     "nan NaN NAN NaT NA N/A n/a n.a. <NA> null NULL None -nan nan(ind) -nan(ind) inf -inf Inf -Inf INF -INF"
@@ -43,9 +39,8 @@ _HEADING = re.compile(
 )
 """``name [unit]``, or ``name (unit)``, ``name {unit}``, ``name <unit>``, ``name, unit``, ``name: unit``, ``name / unit`` (ISO 80000-1)."""
 
+# a unit in brackets below a name, or below one for several columns
 _ALONE = re.compile(r"[({<]([^(){}<>]+)[)}>]")
-"""A unit in brackets below a name, or below one for several columns."""
-
 _QUANTITY = re.compile(
     r"\s*(?P<number>[+-]?[.,]?\d[\d.,]*(?:[eE][+-]?\d+)?)\s*(?P<unit>[A-Za-z\u00b5\u03bc\u00b0%\u2103].*?)?\s*"
 )
@@ -57,6 +52,7 @@ _THOUSANDS = {m: rf"[+-]?[1-9]\d{{0,2}}(?:[{m}]\d{{3}})+" for m in ",."}
 _DECIMALS = {
     m: rf"[+-]?(?:\d*|[1-9]\d{{0,2}}(?:[{o}]\d{{3}})+)[{m}]\d*(?:[eE][+-]?\d+)?" for m, o in (",.", ".,")
 }
+_DIVIDED = {m: re.compile(rf"{_THOUSANDS[o]}(?:[{m}]\d*)?") for m, o in (",.", ".,")}
 _UNIT = r"(?:\s*[A-Za-z\x{b5}\x{3bc}\x{b0}%].*)?"
 """Numbers whose marks may stand between thousands (1,234), and with a decimal mark, as Arrow's expressions."""
 
@@ -64,9 +60,8 @@ ISOLATED = 10.0
 """Steps into and out of a missing-value code, over the largest step of all other values: those of readings are at most
 a few times it, those of a code (-9999 among temperatures) hundreds or more."""
 
+# share of the steps that are compared with those of a usual code: spikes beside it do not hide it
 QUIET = 0.99
-"""Share of the steps that are compared with those of a usual code: spikes beside it do not hide it."""
-
 FEWEST_VARYING = 0.5
 """Share of steps other than 0 from which a column varies, so that equal values far outside are no readings: switches and
 counters stand still nearly always."""
@@ -243,69 +238,39 @@ def find_decimal(columns: Iterable[Any]) -> str:
 
 
 def parse_quantities(texts: Iterable[str], decimal: str = "") -> tuple[Array, str, Mask]:
-    """Numbers in cells, with their units if they have such (``0.12 m/s2``).
-
-    Parameters
-    ----------
-    texts
-        n cells.
-    decimal
-        Their decimal mark; ``""``: told by themselves, or they are no numbers.
-
-    Returns
-    -------
-    numbers : (n,) array
-        NaN where a cell holds none.
-    unit : str
-        Of the numbers: that of the first one; ``""`` where cells have none.
-    spoiled : (n,) array
-        Where a cell is neither such a number nor one of those that hold nothing.
+    """Numbers (n,) of n cells, perhaps with units (``0.12 m/s2``), NaN where there is none; the unit, that of the first; and the cells
+    (n,) that are neither such numbers nor say that nothing is there. ``decimal``: their mark; ``""``: they tell it themselves.
     """
     texts = [*texts]
-    matches = [None if t in MISSING else _QUANTITY.fullmatch(_write_plain(t)) for t in texts]
-    given = [*dict.fromkeys(m["unit"] for m in matches if m and m["unit"])]
-    known = units(9.8)
+    decimal = decimal or find_decimal([texts])
+    matches = (None if t in MISSING else _QUANTITY.fullmatch(_write_plain(t)) for t in texts)
+    cells = [(m["number"], m["unit"] or "") if m else ("", "") for m in matches]
+    given, known = [*dict.fromkeys(u for _, u in cells if u)], units(9.8)
     given = given if all(is_unit(u) and known.fits(u, given[0]) for u in given) else []
-    own = [(m["unit"] or "") if m else "" for m in matches]
-    fits = [m if m and (u in given if given else not u) else None for m, u in zip(matches, own, strict=True)]
-    numbers = _parse_numbers([m["number"] if m else "" for m in fits], decimal)
+    fits = [u in given if given else not u for _, u in cells]
+    numbers = np.array([_parse(n, decimal) if ok else np.nan for (n, _), ok in zip(cells, fits, strict=True)])
     for unit in given[1:]:
-        here, si = np.array([u == unit for u in own]), known.base_unit(given[0])
+        here, si = np.array([u == unit for _, u in cells]), known.base_unit(given[0])
         numbers[here] = known.from_si(known.to_si(numbers[here], unit, si), si, given[0])
     spoiled = np.isnan(numbers) & np.array([t not in MISSING for t in texts], dtype=np.bool_)
     return numbers, given[0] if given else "", spoiled
 
 
-def _parse_numbers(texts: Sequence[str], decimal: str) -> Array:
-    """Numbers of texts with a decimal mark and perhaps the other mark between thousands, NaN where they are none."""
-    decimal = decimal or find_decimal([texts])
-    other = "." if decimal == "," else ","
-    grouped = re.compile(rf"{_THOUSANDS[other]}(?:[{decimal}]\d*)?") if decimal else None
-    found = np.full(len(texts), np.nan)
-    for k, text in enumerate(texts):
-        plain = text.replace(other, "") if grouped and grouped.fullmatch(text) else text
-        with contextlib.suppress(ValueError):
-            found[k] = float(plain.replace(",", ".") if decimal == "," else plain)
-    return found
+def _parse(number: str, decimal: str) -> float:
+    """A number with a decimal mark and perhaps the other mark between thousands; NaN where it is none."""
+    if decimal and _DIVIDED[decimal].fullmatch(number):
+        number = number.replace("." if decimal == "," else ",", "")
+    try:
+        return float(number.replace(",", ".") if decimal == "," else number)
+    except ValueError:
+        return float("nan")
 
 
 # --- codes of missing values ----------------------------------------------------------------------------
 
 
 def find_codes(values: Array, *, known_only: bool = False) -> list[float]:
-    """Codes of missing values: isolated extremes that repeat, or are usual codes such as -9999.
-
-    Parameters
-    ----------
-    values
-        (n,), NaN for nothing.
-    known_only
-        Only usual codes.
-
-    Returns
-    -------
-    The codes, in the order in which they were found.
-    """
+    """Codes of missing values in a column (n,): isolated extremes that repeat, or are usual codes such as -9999 (``known_only``)."""
     x = values[np.isfinite(values)]
     usual = _find_extremes(x, lambda _, v: _is_usual(v))
     rest = x[~np.isin(x, usual)]

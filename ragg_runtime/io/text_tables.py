@@ -45,9 +45,7 @@ from ragg_runtime.io.tables import (
     write_cell,
 )
 
-TWO_ROWS = "the header spans two rows; they are joined"
-"""A note: of merged cells, for example."""
-
+TWO_ROWS = "the header spans two rows; they are joined"  # a note: of merged cells, for example
 _LOOKED_AT = 600  # lines that are looked at to find the header and to separate numbers from text
 _CELL_OF_XML = 4  # bytes in memory for one of a sheet's XML: a cell of 25 bytes becomes an object of 100
 _NOT_CSV = "the file is not a table of comma-separated values"

@@ -25,7 +25,7 @@ from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
-from ragg_runtime.io.record import WIDEST_SPIKE, left_out
+from ragg_runtime.io.record import LEFT_OUT, WIDEST_SPIKE
 from ragg_runtime.report import pages, panels
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.studio.session import Branches, State
@@ -380,7 +380,7 @@ def commands(s: State) -> list[str]:
     # a name of several lines would go on as a command
     return [
         *_list_done(s, model, files),
-        *(one_line(f"# {name}: {left_out(*c)}") for name, c in cuts),
+        *(one_line(f"# {name}: {LEFT_OUT.format(*c)}") for name, c in cuts),
         *found,
     ]
 

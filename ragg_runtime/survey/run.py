@@ -22,7 +22,7 @@ from typing import IO, Any
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import file_digest, locked, read_text
 from ragg_runtime.base.progress import remark
-from ragg_runtime.io.record import same_record
+from ragg_runtime.io.record import SAME_RECORD
 from ragg_runtime.survey.examine import BETWEEN, CONTENT, Job, Record, examine, expand_lines, split_line
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.workspace import Loaded, mapping_of
@@ -129,7 +129,7 @@ def drop_repeated(records: Sequence[Record]) -> Iterator[Record]:
     for r in records:
         same = r["file"] if CONTENT not in r else first.setdefault(r[CONTENT], r["file"])
         if same != r["file"]:
-            error = {"kind": "input", "message": f"{r['file']}: {same_record(same)}"}
+            error = {"kind": "input", "message": f"{r['file']}: {SAME_RECORD.format(same)}"}
             yield {k: r[k] for k in ("flight", "file", "sha256")} | {"error": error}
         else:
             yield {k: v for k, v in r.items() if k != CONTENT}
