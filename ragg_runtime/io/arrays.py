@@ -44,13 +44,13 @@ if TYPE_CHECKING:
 WIDEST = 64
 # what a file says about an array: units, _FillValue, valid_range, names of columns
 Attributes = Mapping[str, Any]
+# arrays (or pairs of an array and its attributes), texts, and trees, by name: units is a tree of texts, line names the line
 Tree = Mapping[str, Any]
-"""Arrays (or pairs of an array and its attributes), texts, and trees, by name: ``units`` is a tree of texts, ``line`` names the line."""
 
 _TITLES = ("columns", "names", "fields", "colheaders", "labels", "channels")
 
+# what NetCDF writes where nothing was written, by type (netcdf.h: NC_FILL_FLOAT ...)
 _DEFAULT_FILL = {"f4": 2.0**123 * 0.9375, "f8": 2.0**123 * 0.9375, "i4": -2147483647, "i2": -32767}
-"""What NetCDF writes where nothing was written, by type (netcdf.h: NC_FILL_FLOAT ...)."""
 
 HDF5_MAGIC = b"\x89HDF\r\n\x1a\n"
 

@@ -24,8 +24,8 @@ from ragg_runtime.io.tables import MISSING
 Array = NDArray[np.float64]
 Nanoseconds = NDArray[np.int64]
 
+# week 0 of GPS time; it counts no leap seconds (Interface Control Document IS-GPS-200, 20.3.3.3)
 GPS_EPOCH = datetime(1980, 1, 6, tzinfo=UTC)
-"""Week 0 of GPS time; it counts no leap seconds (Interface Control Document IS-GPS-200, 20.3.3.3)."""
 
 WAYS: Mapping[str, tuple[int, str]] = MappingProxyType(
     {

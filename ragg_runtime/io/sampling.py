@@ -24,8 +24,8 @@ _MOST_MISSING = 0.9  # of all samples; beyond it the gaps are not gaps but the f
 
 # leaps of the stamps in a record that are named one by one, where they last longer than the record
 FEW_LEAPS = 3
+# relative difference of the mean from the median step below which a record may have no gaps: its mean step is then exact
 NO_GAPS = 0.05
-"""Relative difference of the mean from the median step below which a record may have no gaps: its mean step is then exact."""
 
 # instants from which a line through them is a better clock than the mean step of a record without gaps
 STEADY_FROM = 512

@@ -53,8 +53,8 @@ _DECIMALS = {
     m: rf"[+-]?(?:\d*|[1-9]\d{{0,2}}(?:[{o}]\d{{3}})+)[{m}]\d*(?:[eE][+-]?\d+)?" for m, o in (",.", ".,")
 }
 _DIVIDED = {m: re.compile(rf"{_THOUSANDS[o]}(?:[{m}]\d*)?") for m, o in (",.", ".,")}
+# numbers whose marks may stand between thousands (1,234), and with a decimal mark, as Arrow's expressions
 _UNIT = r"(?:\s*[A-Za-z\x{b5}\x{3bc}\x{b0}%].*)?"
-"""Numbers whose marks may stand between thousands (1,234), and with a decimal mark, as Arrow's expressions."""
 
 ISOLATED = 10.0
 """Steps into and out of a missing-value code, over the largest step of all other values: those of readings are at most

@@ -41,14 +41,10 @@ Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
-MOST = 1500
-"""Rows that a fit takes: many times the number of parameters."""
-
+MOST = 1500  # rows that a fit takes: many times the number of parameters
+# samples of demodulated channels that a stretch holds at least, where they were recorded more seldom than the motion
 WANTED = 128
-"""Samples of demodulated channels that a stretch holds at least, where they were recorded more seldom than the motion."""
-
-TELLING = 512
-"""Samples of demodulated channels that are looked at of a stretch: neighbours are much alike."""
+TELLING = 512  # samples of demodulated channels that are looked at of a stretch: neighbours are much alike
 
 
 @dataclass(frozen=True)
@@ -237,28 +233,19 @@ def make_sampler(model: Model, instrument: Instrument, flight: Flight, place: in
     )
 
 
-GRADIENT_SCALE = 1e4
-"""Prior of a gravity gradient that was not recorded, Eo."""
-
-OUTLIER = 8.0
-"""Residual, in robust standard deviations, from which a sample is left out of the fit."""
-
+GRADIENT_SCALE = 1e4  # prior of a gravity gradient that was not recorded, Eo
+OUTLIER = 8.0  # residual, in robust standard deviations, from which a sample is left out of the fit
+# quantile of the residuals that tells their size. Not the median: where the residual is a beat rather than noise that says little.
 QUARTILE = 0.75
-"""Quantile of the residuals that tells their size. Not the median: where the residual is a beat rather than noise that says little."""
-
-QUARTILE_OF_NORMAL = 1.15
-"""The same quantile of the modulus of a normal variable, in standard deviations."""
-
-RARE = 0.01
-"""Probability of an outlier: what recorders' glitches make."""
+QUARTILE_OF_NORMAL = 1.15  # the same quantile of the modulus of a normal variable, in standard deviations
+RARE = 0.01  # probability of an outlier: what recorders' glitches make
 
 INDEPENDENT = 150.0
 """Rows that a fit counts as, however many it takes: what a wrong model leaves is a wave and no noise. Measured on the benchmark's
 flights, two choices of rows tell the residual of a record to 10 %, and the parameters' squared moves to 30: as many rows weigh
 both alike (2 x 150 log 1.1)."""
 
-SETTLED = 0.999
-"""Factor by which the noise must still fall for the estimate to go on."""
+SETTLED = 0.999  # factor by which the noise must still fall for the estimate to go on
 
 
 @dataclass(frozen=True)

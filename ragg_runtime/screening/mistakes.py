@@ -31,20 +31,15 @@ from ragg_runtime.screening.linear_fit import (
 
 Array = NDArray[np.float64]
 
-SUSPICIOUS = 30.0
-"""Residual, Eo, from which mistakes are looked for; missing effects seldom leave as much."""
-
+SUSPICIOUS = 30.0  # residual, Eo, from which mistakes are looked for; missing effects seldom leave as much
+# sum of squares of the parameters' moves, in plausible sizes, from which mistakes are looked for
 SURPRISING = 150.0
-"""Sum of squares of the parameters' moves, in plausible sizes, from which mistakes are looked for."""
-
+# rows on which all mistakes of unit, sign and axis are tried, and how many of the best are tried on more
 FEW, MOST_TRIED = 400, 24
-"""Rows on which all mistakes of unit, sign and axis are tried, and how many of the best are tried on more."""
-
+# gain in log evidence from which a hypothesis is named: a residual five times smaller. No missing effect looks like that.
 NAMED = INDEPENDENT * float(np.log(5.0))
-"""Gain in log evidence from which a hypothesis is named: a residual five times smaller. No missing effect looks like that."""
-
+# difference in log evidence within which another hypothesis explains the record as well: what the choice of rows makes
 AS_GOOD = INDEPENDENT * float(np.log(1.1))
-"""Difference in log evidence within which another hypothesis explains the record as well: what the choice of rows makes."""
 
 WIDE, WIDE_K1 = 10.0, 100.0
 """Times the usual errors of a test sheet that a sheet may be off; scale factors, of another range or instrument, by 10 %. A third
@@ -249,8 +244,8 @@ def _orders(count: int) -> Iterator[tuple[int, ...]]:
         yield from (tuple({i: j, j: i}.get(k, k) for k in straight) for i, j in combinations(straight, 2))
 
 
+# by which people define the channels otherwise: (Gamma_xx - Gamma_yy)/2, Gamma_yy - Gamma_xx, 2 Gamma_xy, ...
 FACTORS = (1.0, -1.0, 2.0, -2.0, 0.5, -0.5)
-"""By which people define the channels otherwise: (Gamma_xx - Gamma_yy)/2, Gamma_yy - Gamma_xx, 2 Gamma_xy, ..."""
 
 
 def list_channel_mistakes(rows: Rows) -> Iterator[ColumnMistake]:
@@ -313,17 +308,10 @@ which lets through what its length makes of the harmonics of the spin: at 10 s i
 
 FEW_CORNERS, MANY = 6, 60
 
-FINE = 1e-3
-"""Relative precision of a corner."""
-
-ORDERS = (1, 2, 3, 4, 6, 8)
-"""Of Butterworth filters, causal, or in each direction."""
-
-FLAT = 0.443
-"""Half-power frequency of a moving average times its length."""
-
-CLEARLY = 1.1
-"""Factor by which less must be left than without any low-pass."""
+FINE = 1e-3  # relative precision of a corner
+ORDERS = (1, 2, 3, 4, 6, 8)  # of Butterworth filters, causal, or in each direction
+FLAT = 0.443  # half-power frequency of a moving average times its length
+CLEARLY = 1.1  # factor by which less must be left than without any low-pass
 
 
 def _propose_demodulator(s: Sampler) -> Hypothesis:

@@ -38,33 +38,23 @@ FALLS = 0.99
 """Factor by which the residual must fall. Of noise that makes less than a seventh of it ten thousand samples tell no more than
 two sigma."""
 
-NOTICED = float(np.sqrt(1.0 - FALLS**2))
-"""Share of the residual that noise must make for that."""
-
-TOLD = 0.01
-"""Per cent by which coefficients would be too small from which that is told."""
-
+NOTICED = float(np.sqrt(1.0 - FALLS**2))  # share of the residual that noise must make for that
+TOLD = 0.01  # per cent by which coefficients would be too small from which that is told
+# factor by which the residual falls from which noise of a recorded gradient is most of it: what smoothing leaves of that is seen
 MOSTLY = 0.5
-"""Factor by which the residual falls from which noise of a recorded gradient is most of it: what smoothing leaves of that is seen."""
-
+# samples of a window of the spectrum, and bands whose mean densities are compared: the least is the floor
 WINDOW, BANDS = 256, 8
-"""Samples of a window of the spectrum, and bands whose mean densities are compared: the least is the floor."""
-
+# ratio of the two lowest bands below which they are white noise; motion falls off. Of 4,800 samples a band is known to 3 %.
 FLAT = 1.2
-"""Ratio of the two lowest bands below which they are white noise; motion falls off. Of 4,800 samples a band is known to 3 %."""
 
 SURE = 6.0
 """Standard deviations of the spectrum by which motion must be above the noise to be kept. With 3, what passed in single bands was
 filtered out by effects again: of five effect-free flights one had a false claim and one was unexplained."""
 
-BLOCK = 1 << 16
-"""Samples that are smoothed together: at its ends a prediction is 1.5 times less sure."""
-
+BLOCK = 1 << 16  # samples that are smoothed together: at its ends a prediction is 1.5 times less sure
+# error of the smoothed motion, in standard deviations of its noise, at which the conjugate gradients end, and their largest number
 CLOSE, MOST = 1e-3, 400
-"""Error of the smoothed motion, in standard deviations of its noise, at which the conjugate gradients end, and their largest number."""
-
-TRIANGLE = np.array([0.25, 0.5, 0.25])
-"""Weights that smooth a spectrum over neighbouring frequencies."""
+TRIANGLE = np.array([0.25, 0.5, 0.25])  # weights that smooth a spectrum over neighbouring frequencies
 
 SCATTER = 0.56
 """Relative standard deviation of that of one window per record: sqrt(0.53 x 0.6), of Hann windows that overlap by half, whose neighbouring

@@ -33,29 +33,17 @@ Mask = NDArray[np.bool_]
 
 MOTION = (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION)
 
-SIDE = 5
-"""Samples before and after that a sample is compared with."""
-
-BLOCK = 256
-"""Samples over which the usual scatter is taken: it changes with the motion."""
-
+SIDE = 5  # samples before and after that a sample is compared with
+BLOCK = 256  # samples over which the usual scatter is taken: it changes with the motion
+# distance from both sides, over the 95 % quantile of distances from their mean (9 sigma if Gaussian)
 FAR = 4.4
-"""Distance from both sides, over the 95 % quantile of distances from their mean (9 sigma if Gaussian)."""
-
+# distance of a sample of motion from the prediction by its neighbours, in robust standard deviations, from which it is off
 GLITCH = 12.0
-"""Distance of a sample of motion from the prediction by its neighbours, in robust standard deviations, from which it is off."""
-
-STEP = 0.3
-"""Share of a sample's distance by which the sides may differ: more is a step, not a spike."""
-
-USUAL = 0.95
-"""Quantile of the distances that tells the usual scatter: spikes are fewer than the rest."""
-
+STEP = 0.3  # share of a sample's distance by which the sides may differ: more is a step, not a spike
+USUAL = 0.95  # quantile of the distances that tells the usual scatter: spikes are fewer than the rest
+# step from sample to sample, over the standard deviation, up to which a channel is slow: what varies faster may well have peaks
 SLOW = 0.1
-"""Step from sample to sample, over the standard deviation, up to which a channel is slow: what varies faster may well have peaks."""
-
-MOST = 0.05
-"""Largest fraction of the samples that can be spikes; more of them are no glitches but the signal."""
+MOST = 0.05  # largest fraction of the samples that can be spikes; more of them are no glitches but the signal
 
 
 def find_spikes(residual: Array, valid: Mask) -> Mask:
@@ -231,34 +219,29 @@ def describe_spikes(name: str, mask: Mask, time: Array) -> str:
     return f"{name}: {len(places)} {spikes} ({100 * np.mean(mask):.2g} %; t = {instants} s), not used"
 
 
+# share of equal neighbours from which a column is held at a lower rate, if its values are not just coarse
 HELD = 1 / 3
-"""Share of equal neighbours from which a column is held at a lower rate, if its values are not just coarse."""
-
+# steps of its resolution by which a column moves, in the median, from which repetition is not the resolution's doing
 COARSE = 8.0
-"""Steps of its resolution by which a column moves, in the median, from which repetition is not the resolution's doing."""
-
-FEWEST = 8
-"""Recorded values that are needed to see how they come."""
-
+FEWEST = 8  # recorded values that are needed to see how they come
+# share of the values of a column joined by lines that must follow each other at the same number of samples
 REGULAR = 0.99
-"""Share of the values of a column joined by lines that must follow each other at the same number of samples."""
 
 STRAIGHT = 1e-3
 """Second difference, over the root mean square of all, below which three samples lie on one line: digits that were written make
 less, and of recorded values one in a thousand bends so little."""
 
+# pairs of neighbours on either side, at least, that tell how often a column repeats a value there
 BESIDE = 32
-"""Pairs of neighbours on either side, at least, that tell how often a column repeats a value there."""
 
 SUDDEN = 5.0
 """Times the usual move of a column by which it leaps to an end of its range and back in a drop-out. In saturation it moves there: of
 1,374 clipped series, white to smooth, none did so by more than 4.8 into and out of a run."""
 
+# pairs of neighbours in whose median move the resolution of a column is seen: it stands still in parts
 LOCAL = 64
-"""Pairs of neighbours in whose median move the resolution of a column is seen: it stands still in parts."""
-
+# number of such runs to be expected in the whole record below which one is no chance; of zeros, which recorders write
 RARE, RARE_ZEROS = 1e-3, 0.1
-"""Number of such runs to be expected in the whole record below which one is no chance; of zeros, which recorders write."""
 
 
 def leave_out_repeated(flight: Flight) -> Flight:

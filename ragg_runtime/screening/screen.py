@@ -36,23 +36,22 @@ UNLIKE = 0.44
 """Share of an angular acceleration that the derivatives of the rates may leave for it to be compared with them (a correlation of
 0.9)."""
 
+# factor within which an angular acceleration has the size of its rate's derivative: smoothing and noise stay below it
 SAME_SIZE = 2.0
-"""Factor within which an angular acceleration has the size of its rate's derivative: smoothing and noise stay below it."""
-
+# samples from which two series can be compared, or a clock is looked at: with fewer the model fits any
 FEWEST = 64
-"""Samples from which two series can be compared, or a clock is looked at: with fewer the model fits any."""
 
 LEAP, SIDE, SMOOTH = 0.8, 4, 0.05
 """Share of its range by which a column leaps where its numbers overflow; samples on either side in which it moves on by more than two
 usual steps (a platform that is set from one attitude to another rests there); share of the range of a usual step, at most."""
 
+# relative distance of the encoder's rate from the model's spin rate that a disc's own slowness may have
 SAME_SPIN = 2e-3
-"""Relative distance of the encoder's rate from the model's spin rate that a disc's own slowness may have."""
 
 MOTION = (*SPECIFIC_FORCE, *ANGULAR_RATE)
 
+# what is said of a record in which nothing moves
 AT_REST = "the motion does not change: a record at rest determines little of an instrument, and does not suffice to find an effect"
-"""What is said of a record in which nothing moves."""
 
 
 def require_comparable(model: Model, instrument: Instrument, flight: Flight) -> None:
@@ -219,17 +218,13 @@ def _encoder(disc: Disc, flight: Flight) -> list[str]:
 
 Mask = NDArray[np.bool_]
 
+# factor by which the residual falls once a mistake is undone, from which going on is senseless
 SENSELESS = 20.0
-"""Factor by which the residual falls once a mistake is undone, from which going on is senseless."""
-
+# factor from which what the model leaves is told as smaller; below, the parameters' nearness to the sheet spoke for the mistake
 HALVED = 2.0
-"""Factor from which what the model leaves is told as smaller; below, the parameters' nearness to the sheet spoke for the mistake."""
-
+# gain in log evidence from which a clock was set and sampling did not pause (docs/contributors/decisions.md)
 CLOCK = INDEPENDENT * float(np.log(1.3))
-"""Gain in log evidence from which a clock was set and sampling did not pause (docs/contributors/decisions.md)."""
-
-CHUNK = 1 << 16
-"""Rows of a whole flight that are looked at at a time."""
+CHUNK = 1 << 16  # rows of a whole flight that are looked at at a time
 
 
 @one_thread

@@ -28,65 +28,49 @@ from ragg_runtime.signals.fir import convolve, find_step
 
 Array = NDArray[np.float64]
 
-FARTHEST = 60.0
-"""Longest shift of the motion record that is looked for, s."""
-
-SPIN_RANGE = 0.05
-"""Relative error of the spin rate that is looked for."""
-
+FARTHEST = 60.0  # longest shift of the motion record that is looked for, s
+SPIN_RANGE = 0.05  # relative error of the spin rate that is looked for
+# start of a record after angle 0 of its disc, s, up to which the spin rate is looked for: the grid is the finer
 LATEST = 1e4
-"""Start of a record after angle 0 of its disc, s, up to which the spin rate is looked for: the grid is the finer."""
 
 SLIP_ROWS, SWITCH, MOST_SLIPS = 800, 30.0, 4
 """Rows on which slips of one recorder against another are looked for; what a change of the lag costs, from a third to three times of
 which finds the same (docs/contributors/decisions.md); most of them in a record."""
 
+# times that lags are followed again by the model as fitted with those of the time before, and with lags beside them
 ROUNDS = 4
-"""Times that lags are followed again by the model as fitted with those of the time before, and with lags beside them."""
-
+# most parts of a record whose lags are looked for, and turns of the disc in each: a slip must fill one
 SLIP_PARTS, SLIP_TURNS = 16, 4
-"""Most parts of a record whose lags are looked for, and turns of the disc in each: a slip must fill one."""
-
+# shifts that are tried: about the tops of a cross-correlation, and on from there while less is left
 MOST_SHIFTS = 64
-"""Shifts that are tried: about the tops of a cross-correlation, and on from there while less is left."""
-
-LONGEST = 1 << 18
-"""Samples of which a shift is estimated."""
-
+LONGEST = 1 << 18  # samples of which a shift is estimated
+# angle at the start from which it is a mistake; smaller ones are a matter of calibration (spin-phase-offset)
 LEAST_PHASE = np.deg2rad(5.0)
-"""Angle at the start from which it is a mistake; smaller ones are a matter of calibration (spin-phase-offset)."""
-
+# turns by which the disc may be ahead where rows were lost, or behind where some were doubled, that are tried first
 TURNED = np.array([-15, -8, -4, -2, 2, 4, 8, 15, *range(30, 360, 30)]) / 360
-"""Turns by which the disc may be ahead where rows were lost, or behind where some were doubled, that are tried first."""
-
+# parts of a record of which some neighbours may be of another one, that are tried first; the best are then refined
 INSTANTS = 16
-"""Parts of a record of which some neighbours may be of another one, that are tried first; the best are then refined."""
 
 TELLING_PHASE = 3e-5
 """Angle, rad, that an error of the spin rate may add up to over a record and stay unseen: of a gradient of 3000 Eo that is
 0.1 Eo. Further digits of a rate are noise of the search."""
 
+# step of an encoder, rad, from which it may be what the model leaves: of an output of 100,000 Eo it makes 3 Eo, about the noise
 COARSE_ANGLE = 1e-4
-"""Step of an encoder, rad, from which it may be what the model leaves: of an output of 100,000 Eo it makes 3 Eo, about the noise."""
-
+# turns of the disc over which its angle is estimated, to a tenth of a radian, and how many such estimates there must be
 TURNS, FEWEST_BLOCKS = 2, 8
-"""Turns of the disc over which its angle is estimated, to a tenth of a radian, and how many such estimates there must be."""
-
+# angle, rad, by which an estimate may lie behind the one before: four times its error; beyond it the disc has run ahead
 BACK = 1.0
-"""Angle, rad, by which an estimate may lie behind the one before: four times its error; beyond it the disc has run ahead."""
 
 PART_ROWS, LARGE, SMALL = 400, 0.2, 0.02
 """Rows by which a part of another record is looked for, and shares of the output that the model leaves of it at least, and of the rest at
 most: effects, a step of the gain too, leave a hundredth."""
 
+# factor of what they leave within which both are said: a gap of a third of a turn looks nearly like two thirds twice
 ALIKE = 3.0
-"""Factor of what they leave within which both are said: a gap of a third of a turn looks nearly like two thirds twice."""
-
+# angle, rad, from which rows are said to be missing here and there: a disc's own unsteadiness (spin-rate-jitter) is far less
 LEAST_TURN = 0.5
-"""Angle, rad, from which rows are said to be missing here and there: a disc's own unsteadiness (spin-rate-jitter) is far less."""
-
-COST = 3.0
-"""What orders a mistake of timing after one of columns that explains as much."""
+COST = 3.0  # what orders a mistake of timing after one of columns that explains as much
 
 
 def propose_times(s: Sampler) -> list[Hypothesis]:

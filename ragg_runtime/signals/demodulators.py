@@ -30,32 +30,20 @@ from ragg_runtime.signals.fir import Series, convolve
 
 Array = NDArray[np.float64]
 
-CUTOFF = 0.2
-"""Half-amplitude frequency of the low-pass (Hz), as in the paper."""
-
+CUTOFF = 0.2  # half-amplitude frequency of the low-pass (Hz), as in the paper
+# transition width (Hz): the stop band begins at 0.25 Hz, where the neighbours of the 2nd harmonic land
 WIDTH = 0.1
-"""Transition width (Hz): the stop band begins at 0.25 Hz, where the neighbours of the 2nd harmonic land."""
-
-ATTENUATION = 100.0
-"""Stop-band attenuation (dB)."""
-
+ATTENUATION = 100.0  # stop-band attenuation (dB)
+# sampling rate (Hz) at which the length of the low-pass is rounded to samples: that of the paper's experiments here
 REFERENCE = 16.0
-"""Sampling rate (Hz) at which the length of the low-pass is rounded to samples: that of the paper's experiments here."""
-
+# Butterworth, in each direction; half-power frequency, Hz: forward and backward it passes half of the amplitude there
 ORDER, CORNER = 6, 0.18
-"""Butterworth, in each direction; half-power frequency, Hz: forward and backward it passes half of the amplitude there."""
-
+# share of its sum at which a Butterworth kernel is cut off: far below what noise leaves of any gradient
 FORGOTTEN = 1e-9
-"""Share of its sum at which a Butterworth kernel is cut off: far below what noise leaves of any gradient."""
-
-ROOM = 32
-"""Samples on either side into which a delay of part of a sample may ring."""
-
+ROOM = 32  # samples on either side into which a delay of part of a sample may ring
+# highest frequency, Hz, and number of those at which power is summed: beyond it nothing passes
 TOP, GRID = 0.5, 4001
-"""Highest frequency, Hz, and number of those at which power is summed: beyond it nothing passes."""
-
-EDGE = 1e-4
-"""Share of the kernel that may lie beyond the record's end: of a gradient of 1000 Eo it is 0.1 Eo."""
+EDGE = 1e-4  # share of the kernel that may lie beyond the record's end: of a gradient of 1000 Eo it is 0.1 Eo
 
 
 class Demodulated(NamedTuple):
@@ -267,8 +255,8 @@ Axis = Sequence[float] | Array
 
 COMPONENTS = ("xx", "xy", "xz", "yy", "yz", "zz")
 
+# smallest over largest singular value of the channels' dependence on the tensor below which they do not determine it
 ILL = 1e-6
-"""Smallest over largest singular value of the channels' dependence on the tensor below which they do not determine it."""
 
 
 @dataclass(frozen=True)
@@ -313,8 +301,8 @@ def spread_across(axes: tuple[Axis, Axis], inline: Array, cross: Array) -> Array
     return np.asarray(np.outer(one[upper], inline) + np.outer(other[upper], cross))
 
 
+# the six components by xx, xy, xz, yy, yz: zz = -(xx + yy)
 _TRACELESS = np.insert(np.eye(5), 5, [-1.0, 0.0, 0.0, -1.0, 0.0], axis=0)
-"""The six components by xx, xy, xz, yy, yz: zz = -(xx + yy)."""
 
 
 def tensor(axes: Sequence[tuple[Axis, Axis]], channels: Array, std: Array) -> Tensor:

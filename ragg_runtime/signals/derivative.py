@@ -14,11 +14,9 @@ from ragg_runtime.signals.fir import fill_gaps
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-WINDOW = 25
-"""Samples that enter one derivative."""
-
+WINDOW = 25  # samples that enter one derivative
+# end of the band for which the derivative is designed, of the Nyquist frequency; at an edge a wider one would multiply noise by 200
 BAND, EDGE_BAND = 0.65, 0.42
-"""End of the band for which the derivative is designed, of the Nyquist frequency; at an edge a wider one would multiply noise by 200."""
 
 _EDGE = 6  # samples at either end where the window is so one-sided that noise needs holding down
 _POLYNOMIAL = 4  # polynomials up to this degree are differentiated exactly
@@ -142,8 +140,7 @@ def bridge_gaps(x: Array, there: Mask, *, smooth: bool = False, turning: bool = 
     return np.where(there, x, made + np.polyval(turn, k))
 
 
-PREDICTED = 24
-"""Samples from which an autoregressive series predicts the next: as many as enter a derivative."""
+PREDICTED = 24  # samples from which an autoregressive series predicts the next: as many as enter a derivative
 
 
 def predict_missing(x: Array, there: Mask) -> Array:
@@ -166,8 +163,8 @@ def predict_missing(x: Array, there: Mask) -> Array:
         return found
 
 
+# degree of the spline that interpolates: at 42 % of the Nyquist frequency it errs by 4e-6 of the amplitude, at 65 % by 1e-3
 SPLINE = 9
-"""Degree of the spline that interpolates: at 42 % of the Nyquist frequency it errs by 4e-6 of the amplitude, at 65 % by 1e-3."""
 
 
 def interpolate_even(x: Sequence[Array], at: Array, *, integral: bool = False) -> Array:
@@ -183,8 +180,8 @@ def interpolate_even(x: Sequence[Array], at: Array, *, integral: bool = False) -
     return np.asarray(found.T)
 
 
+# of the polynomials that smooth a series for its slope: each leaves less of a fast swing out, and lets more noise in
 DEGREES = (5, 7, 9, 11, 13)
-"""Of the polynomials that smooth a series for its slope: each leaves less of a fast swing out, and lets more noise in."""
 
 
 def smooth_slope(x: Array, half: int, order: int, degree: int = DEGREES[0]) -> Array:
@@ -277,14 +274,11 @@ REACH = 64
 """Samples on either side that enter a derivative. Where there are fewer, next to an end or a gap, it is good to half the frequency and
 not relied upon; of a short run an eighth at either end, or little would be left of a record with many gaps."""
 
-WIDE_BAND = 0.9
-"""End of the band, of the Nyquist frequency."""
-
+WIDE_BAND = 0.9  # end of the band, of the Nyquist frequency
+# deviation from even instants, in steps, from which they are followed: the last digits of a time of a day
 JITTER = 1e-7
-"""Deviation from even instants, in steps, from which they are followed: the last digits of a time of a day."""
-
+# of the splines through instants that jitter: their derivative is as good as the finite differences'
 DEGREE = 5
-"""Of the splines through instants that jitter: their derivative is as good as the finite differences'."""
 
 NOTE = (
     f"omegadot_x, omegadot_y, omegadot_z are derived from omega, good to {100 * WIDE_BAND:.0f} % of the Nyquist frequency; up to"

@@ -13,11 +13,8 @@ from ragg_runtime.base.progress import split_range
 Array = NDArray[np.float64]
 Floats = TypeVar("Floats", NDArray[np.float64], NDArray[np.float32])
 
-BLOCK = 1 << 18
-"""Numbers that are transformed at a time; longer series are convolved by overlap and add."""
-
-GROUP = 4
-"""Columns that are transformed at a time: more leave the cache."""
+BLOCK = 1 << 18  # numbers that are transformed at a time; longer series are convolved by overlap and add
+GROUP = 4  # columns that are transformed at a time: more leave the cache
 
 
 def find_nonzero(columns: Floats) -> NDArray[np.bool_]:
@@ -52,11 +49,9 @@ def filter_columns(columns: Floats, taps: Array, tail: Floats | None = None, lea
     return result
 
 
-REACH = 256
-"""Samples on either side from which one that is missing is interpolated."""
-
+REACH = 256  # samples on either side from which one that is missing is interpolated
+# relative white noise that is added to what is interpolated: the density of a noise may span more than single numbers do
 ROUNDING = 1e-9
-"""Relative white noise that is added to what is interpolated: the density of a noise may span more than single numbers do."""
 
 
 def place_valid(rest: Array, valid: NDArray[np.bool_]) -> Array:
@@ -114,20 +109,15 @@ def convolve(x: Series, taps: Array, mode: Literal["valid", "same", "full"] = "v
     return found.reshape(*x.shape[:-1], -1)
 
 
+# samples of a column from which its step is found: sorted, they are closer together than most of the others
 LOOKED_AT = 1 << 15
-"""Samples of a column from which its step is found: sorted, they are closer together than most of the others."""
-
+# different values from which a step can be told: that so many lie on a grid to OFF by chance has a probability of 2e-7
 FEWEST = 8
-"""Different values from which a step can be told: that so many lie on a grid to ``OFF`` by chance has a probability of 2e-7."""
-
+# times that every value occurs on average from which fewer tell it as well: no continuous column repeats itself
 REPEATED = 20
-"""Times that every value occurs on average from which fewer tell it as well: no continuous column repeats itself."""
-
+# part of a step by which values may lie off its multiples: what writing them in decimal digits makes of them
 OFF = 0.1
-"""Part of a step by which values may lie off its multiples: what writing them in decimal digits makes of them."""
-
-FINEST = 1e-12
-"""Step over the range of a column below which it is the rounding of floating-point numbers."""
+FINEST = 1e-12  # step over the range of a column below which it is the rounding of floating-point numbers
 
 
 def find_step(x: Array) -> float | None:
