@@ -331,7 +331,7 @@ def _repeated(x: Array, there: Mask, turning: bool) -> _Repeated | None:
     moves = np.abs(np.diff(x))[pairs & ~equal]
     if len(moves) < FEWEST - 1:
         return None  # it does not change at all
-    step = find_step(x[there]) if equal.any() else None
+    step = find_step(x[there])
     coarse = step is not None and np.median(moves) < COARSE * step and not turning
     held = np.sum(equal) >= HELD * np.sum(pairs) and not coarse
     if held and max(r.stop + 1 - r.start for r in runs(equal)) < HELD * len(x):
@@ -428,10 +428,10 @@ def _find_lost(x: Array, there: Mask, stuck: Mask) -> Mask:
 
 
 def _find_usual_moves(moves: Array, there: Mask) -> Array:
-    """(N,): the least median of moves from sample to sample, (N - 1,), in a sample's own block and the two beside it."""
+    """(N,): the least median of moves (N - 1,), but those of readings that are held, in a sample's own block and the two beside it."""
     size = min(LOCAL, len(moves))
     pairs = there[1:] & there[:-1]
-    known = pd.Series(np.where(pairs & np.isfinite(moves), moves, np.nan))
+    known = pd.Series(np.where(pairs & (moves > 0.0), moves, np.nan))
     sizes = [len(b) for b in np.array_split(moves, len(moves) // size)]
     usual = known.groupby(np.repeat(np.arange(len(sizes)), sizes)).median().fillna(0.0)
     least = minimum_filter1d(usual.to_numpy(), 3, mode="nearest")
