@@ -220,8 +220,8 @@ class Thin:
         )
 
     def kept(self, x: Array) -> Array:
-        """Series (..., N) over the :meth:`source`, thinned: (..., n)."""
-        return convolve(x, self.taps)[..., :: self.every]
+        """Series (..., N) over the :meth:`source`, thinned: (..., n), which does not hold on to the others."""
+        return convolve(x, self.taps)[..., :: self.every].copy()
 
 
 def measure_information_per_sample(r: Record) -> float:

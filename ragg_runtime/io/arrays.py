@@ -223,7 +223,7 @@ def decode_values(values: NDArray[Any], attributes: Attributes) -> NDArray[Any] 
         nothing.append(fill)
     missing = np.isin(values, np.array(nothing).astype(values.dtype))
     packed = "scale_factor" in said or "add_offset" in said
-    result: NDArray[Any] = values.astype(np.float64)
+    result: NDArray[Any] = values.astype(np.float64, copy=False)
     if packed:
         result = result * said.get("scale_factor", [1.0])[0] + said.get("add_offset", [0.0])[0]
     for name in (n for n in ("valid_range", "valid_min", "valid_max") if n in said):
@@ -231,8 +231,7 @@ def decode_values(values: NDArray[Any], attributes: Attributes) -> NDArray[Any] 
         encoded = packed and kind in "iu" and said[name].dtype.kind == "f"
         x, limits = result if encoded else values, said[name]
         missing |= (x < limits[0]) & (name != "valid_max") | (x > limits[-1]) & (name != "valid_min")
-    result[missing] = np.nan
-    return result
+    return np.where(missing, np.nan, result) if missing.any() else result
 
 
 def count_seconds(x: NDArray[Any]) -> tuple[Array, str]:
@@ -378,8 +377,9 @@ def convert_arrow(column: pa.ChunkedArray) -> NDArray[Any]:
     if pa.types.is_temporal(kind):
         return np.asarray(column.to_numpy())
     column = column.cast(pa.int8()) if pa.types.is_boolean(kind) else column
-    whole = column.cast(pa.float64(), safe=False).combine_chunks()  # whole numbers beyond 2^53: ns since 1970
-    return np.asarray(np.from_dlpack(whole.fill_null(float("nan")) if whole.null_count else whole))
+    column = column.cast(pa.float64(), safe=False)  # whole numbers beyond 2^53: ns since 1970
+    column = column.fill_null(float("nan")) if column.null_count else column
+    return np.concatenate([np.empty(0), *map(np.from_dlpack, column.chunks)])
 
 
 def read_unit(field: pa.Field) -> str:

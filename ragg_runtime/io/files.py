@@ -126,6 +126,7 @@ def read_tables(source: Any) -> list[DataTable]:
     """All tables of a file, by the ending of its name, or of a flight in memory."""
     try:
         tables = _read_file(Path(source)) if isinstance(source, str | Path) else tabulate(source)
+        pa.default_memory_pool().release_unused()  # Arrow would keep what a long file took
         return [join_parts(read_quantities(t)) for t in tables]
     except MemoryError:
         what = "the file is damaged, or too large for the memory of this computer"
