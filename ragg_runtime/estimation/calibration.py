@@ -24,6 +24,7 @@ from ragg_runtime.estimation.regressors import (
     make_point,
     spell_name,
 )
+from ragg_runtime.estimation.unknown_gradient import Window, make_windows
 from ragg_runtime.estimation.whitening import Piece, pass_over
 from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
 from ragg_runtime.model.model import Model, make_vector, scale_factor
@@ -89,6 +90,10 @@ class _Fall(Linear):
         return float(self.data[-1, -1] ** 2) / max(self.rows, 1)
 
 
+Weights = Sequence[tuple[NoiseModel, Sequence[Sequence[Window]]]]
+"""Of every observation its noise, and what an unknown gradient spans by that in each segment, whatever the parameters are."""
+
+
 @dataclass(frozen=True)
 class _Task:
     """What is fitted: chi-square as a function of the parameters' distance x (n,) from the sheet, in scales."""
@@ -109,28 +114,30 @@ class _Task:
         p[self.index] += x * self.scale
         return p
 
-    def linearise(self, x: Array, noise: Sequence[NoiseModel]) -> _Fall:
-        """The fit about x; where the model is no instrument it is infinitely far from any record."""
+    def weigh(self, noise: Sequence[NoiseModel] | None) -> Weights:
+        """The weights by a noise; ``None``: by white noise of one volt in every series."""
+        white = [NoiseModel.white(o.record.rate, len(o.series)) for o in self.observations]
+        pairs = zip(self.observations, white if noise is None else noise, strict=True)
+        return [(n, [[w.lean() for w in make_windows(o, x, n)] for x in o.segments]) for o, n in pairs]
+
+    def linearise(self, x: Array, weights: Weights, size: float = 1.0) -> _Fall:
+        """The fit about x, with noise ``size`` times that of the weights; where the model is no instrument it is infinitely far from any
+        record.
+        """
         p, n = self.vector(x), len(x)
         data, rows = np.full((n + 1, n + 1), np.nan), 0
         sums = {o.place: np.zeros(n + 1) for o in self.observations}
         if all(scale_factor(self.model, p, place) > 0.0 for place in sums):
             point, r_factors = LinearisationPoint(self.model, p, self.columns), []
-            for o, own in zip(self.observations, noise, strict=True):
-                for T, count, part in pass_over(point, o, own, _r_factor):
+            for o, (own, spanned) in zip(self.observations, weights, strict=True):
+                for T, count, part in pass_over(point, o, own, _r_factor, spanned=spanned):
                     r_factors.append(T)
                     rows += count
                     sums[o.place] += part
-            data = join(r_factors)
+            data = join(r_factors) / size
         if not np.isfinite(data).all():
             return _Fall(np.diag([*np.ones(n), np.inf]), np.zeros_like(data), {}, 1)
         return _Fall(add_prior(data, range(n), -x), data, sums, rows)
-
-    def linearise_evenly(self, x: Array, size: float = 1.0) -> _Fall:
-        """The same with white noise of such a size, V, in every series."""
-        return self.linearise(
-            x, [NoiseModel.white(o.record.rate, len(o.series), size) for o in self.observations]
-        )
 
 
 def estimate_noises(
@@ -160,16 +167,17 @@ def fit(
     task = _Task(model, observations, make_vector(model, instrument), columns, np.array(index))
     x = np.zeros(len(index)) if start is None else (start - task.nominal)[task.index] / task.scale
     if noise is None:
-        size = float(np.sqrt(task.linearise_evenly(x).unheld))
-        x = minimise(partial(task.linearise_evenly, size=size), x).x
+        even = task.weigh(None)
+        size = float(np.sqrt(task.linearise(x, even).unheld))
+        x = minimise(partial(task.linearise, weights=even, size=size), x).x
         noise = estimate_noises(model, instrument, observations, task.vector(x))
-    linearise = partial(task.linearise, noise=noise)
+    weights, size = task.weigh(None if unweighted else noise), 1.0
     if unweighted:
-        size = float(np.sqrt(task.linearise_evenly(x).excess)) / LEAN
+        size = float(np.sqrt(task.linearise(x, weights).excess)) / LEAN
         pairs = [(n, o.record) for n, o in zip(noise, observations, strict=True)]
         power = np.mean([n.power * n.swell(r) + n.line_power for n, r in pairs])
-        linearise = partial(task.linearise_evenly, size=max(size, float(np.sqrt(power))))
-    found = minimise(linearise, x)
+        size = max(size, float(np.sqrt(power)))
+    found = minimise(partial(task.linearise, weights=weights, size=size), x)
     at, step = found.at, found.last
     for sums in at.sums.values():
         step = level_biases(step, sums, find_null_biases(task.columns))

@@ -10,7 +10,7 @@ own response to that first estimate then replaces the ideal one, which leaves th
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 
@@ -63,6 +63,10 @@ class Window:
     def raw(self) -> Array:
         """(m valid, k): orthonormal basis before whitening."""
         return orthonormalise(self.plain)
+
+    def lean(self) -> Window:
+        """What whitened rows need of it."""
+        return replace(self, plain=np.empty((0, 0)))
 
 
 def is_unknown(o: Observation) -> bool:

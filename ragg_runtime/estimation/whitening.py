@@ -68,16 +68,18 @@ def pass_over(
     *,
     chosen: Sequence[slice] | None = None,
     whitened: bool = True,
+    spanned: Sequence[Sequence[Window]] | None = None,
 ) -> Iterator[R]:
     """What ``work`` makes of every segment of a flight (or of the ``chosen``, in order); it must not keep a piece of several.
 
-    Unless ``whitened``, the columns alone are made.
+    Unless ``whitened``, the columns alone are made. ``spanned``: the windows of an unknown gradient in each segment, where they are known.
     """
     share = (1.0 if at.candidates else 0.4) * (1.0 if whitened else 0.5)
     past, end = None, 0
-    for rows in o.segments if chosen is None else chosen:
+    for k, rows in enumerate(o.segments if chosen is None else chosen):
         part = o.part(rows)
-        columns, windows = linearise(at, part), unknown_gradient.make_windows(o, rows, noise)
+        columns = linearise(at, part)
+        windows = unknown_gradient.make_windows(o, rows, noise) if spanned is None else spanned[k]
         white, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
         if whitened:
             white, past = noise.whiten_segment(
