@@ -74,8 +74,6 @@ def make_flight(
     _require_names(made, NEEDED, "the motion needs")
     if any(n in made.names for n in ANGULAR_ACCELERATION):
         _require_names(made, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
-    if need_output:
-        _require_output(made, made.names, accelerometers)
     kept = tuple(c for c in made.columns if is_column(c.name) and c.name not in leave)
     made = replace(made, columns=kept, notes=(*made.notes, *_pass_over(made.names)))
     si, si_units = _convert(made, g0, accelerometers)
@@ -84,8 +82,8 @@ def make_flight(
     notes = [*made.notes, *doubled, *_leave_out_impossible(si, si_units), *grid.notes]
     placed = {c: _place(si.pop(c), grid) for c in [*si]}  # of a day at 100 Hz each is 70 MB
     _drop_empty(placed, notes, made.place)
-    if need_output:  # once more: of the columns that hold anything
-        _require_output(made, placed, accelerometers)
+    if need_output:
+        _require_output(made, ("time", *placed), accelerometers)
     outputs = {c: placed.pop(c) for c in (*accelerometers.columns, *DEMODULATED) if c in placed}
     _interpolate_auxiliaries(placed, si_units, grid, notes)
     notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
@@ -221,9 +219,8 @@ def _require_names(made: DataTable, needed: Sequence[str], what: str) -> None:
     missing = [n for n in needed if n not in made.names]
     if not missing:
         return
-    near = (
-        did_you_mean(missing[0], [n for n in made.names if n not in SI_UNITS]) if len(missing) == 1 else None
-    )
+    spare = [n for n in made.names if n not in SI_UNITS]
+    near = did_you_mean(missing[0], spare) if len(missing) == 1 else None
     raise UserError(
         f"the column{'s' * (len(missing) > 1)} {', '.join(missing)} {'are' if missing[1:] else 'is'} missing",
         where=made.place,
@@ -237,9 +234,8 @@ def _require_names(made: DataTable, needed: Sequence[str], what: str) -> None:
 
 def _list_columns(made: DataTable, names: Collection[str]) -> str:
     told = [n for n in made.notes if n.startswith(("skipped,", TWO_ROWS)) or n.endswith("; it is left out")]
-    return "; ".join(
-        [f"the columns {', '.join(filter(is_column, names))}", *told[:6], *_pass_over(made.names)]
-    )
+    columns = f"the columns {', '.join(filter(is_column, names))}"
+    return "; ".join([columns, *told[:6], *_pass_over(made.names)])
 
 
 def _require_output(made: DataTable, names: Collection[str], a: Accelerometers) -> None:
@@ -263,8 +259,9 @@ def _drop_empty(columns: dict[str, Array], notes: list[str], place: str) -> None
     """Leave out columns without a single number, unless the motion would be incomplete."""
     for name in [n for n, v in columns.items() if np.isnan(v).all()]:
         if name in NEEDED:
-            what, expected = "the column holds no number", "numbers: the motion needs it"
-            raise UserError(what, where=at(place, f"column {name!r}"), expected=expected)
+            raise UserError(
+                "the column holds no number: the motion needs it", where=at(place, f"column {name!r}")
+            )
         del columns[name]
         notes.append(f"{name}: the column holds no number; it is left out")
 
@@ -407,11 +404,10 @@ def _interpolate_auxiliaries(
     for name in filter(_is_auxiliary, list(placed)):
         if not is_disc_angle(name):
             placed[name], step = _interpolate_coarse(placed[name])
-            notes += (
-                [f"{name}: recorded in steps of {step:.3g} {si_units[name]}; interpolated between them"]
-                if step
-                else []
-            )
+            if step is not None:
+                notes.append(
+                    f"{name}: recorded in steps of {step:.3g} {si_units[name]}; interpolated between them"
+                )
         there = np.isfinite(placed[name])
         known = int(np.sum(there))
         if not 0 < known < (1 - SPARSE) * len(grid.index):

@@ -5,6 +5,7 @@ A further format is one function ``path -> list of DataTable`` and a line of :da
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import io
 from collections.abc import Callable, Mapping, Sequence
@@ -275,24 +276,23 @@ def convert(source: Path, target: Path, mapping: Mapped | None = None) -> dict[s
     made = read_recordings(source, mapping)
     if len(made) == 1:
         made = [replace(made[0], line=None)]
-    columns = made[0].columns
-    bare = [c.name for c in columns if not c.unit]
+    names, bare = made[0].names, [c.name for c in made[0].columns if not c.unit]
     notes = [n for r in made for n in r.notes]
     notes += [f"without a unit, as in the file: {', '.join(bare)}"] if bare else []
     made = [_count_from_first(r, notes) for r in made]
     write_tables(target, made)
-    names, rows = [c.name for c in columns], sum(map(len, made))
-    counts = {"output": str(target), "lines": len(made), "rows": rows, "columns": names}
+    counts = {"output": str(target), "lines": len(made), "rows": sum(map(len, made)), "columns": [*names]}
     return {**counts, "notes": list(dict.fromkeys(notes))}
 
 
 def _count_from_first(r: DataTable, notes: list[str]) -> DataTable:
     """A line whose instants count from the first of them, which is noted."""
-    first = float(r.column("time").values[0]) if r.instants and "time" in r.names and len(r) else 0.0
-    if r.instants or r.origin is not None:
-        elapsed = timedelta(seconds=first)
-        origin = f"{first:.10g} s after midnight" if r.origin is None else write_instant(r.origin + elapsed)
-        notes.append(("" if r.line is None else f"line {r.line}: ") + f"time counts from {origin}")
+    if r.origin is None and not r.instants:
+        return r
+    first = float(r.column("time").values[0]) if r.instants and len(r) else 0.0
+    elapsed = timedelta(seconds=first)
+    origin = f"{first:.10g} s after midnight" if r.origin is None else write_instant(r.origin + elapsed)
+    notes.append(("" if r.line is None else f"line {r.line}: ") + f"time counts from {origin}")
     moved = (replace(c, values=c.values - first) if c.name == "time" else c for c in r.columns)
     return replace(r, columns=tuple(moved))
 
@@ -341,7 +341,7 @@ def describe_flight(path: Path | str, mapping: Mapped | None = None) -> dict[str
 
 
 def _describe_record(r: DataTable, name: str, several: bool) -> dict[str, Any]:
-    notes, refused, grid = list(r.notes), None, None
+    notes, refused, grid = [*r.notes], None, None
     try:
         x = make_flight(r, PAPER_G)
         notes = [*x.notes]
@@ -352,11 +352,9 @@ def _describe_record(r: DataTable, name: str, several: bool) -> dict[str, Any]:
             )
     except UserError as error:
         refused = error.message
-    try:
+    with contextlib.suppress(KeyError, UserError):  # reported in ``refused``
         time = r.column("time")
         grid = make_grid(units(PAPER_G).to_si(time.values, time.unit or "s", "s", "column 'time'"), r.place)
-    except (KeyError, UserError):
-        pass  # reported in ``refused``
     gaps = [] if grid is None else grid.gaps
     longest = sorted(gaps, key=lambda g: -g["samples"])[:MOST_GAPS]
     return {

@@ -78,14 +78,11 @@ _YEAR_DAY = re.compile(r"(\d{4})[-/.]?(\d{3})")
 
 @dataclass(frozen=True)
 class Stamps:
-    """Instants in seconds (n,), NaN where there is none.
+    """Instants in seconds."""
 
-    ``instants``: they are dates, times of the day or GPS time and count from ``origin``, the midnight before the first one
-    (UTC, or GPS time where the file counts in that; ``None`` if the day is not known). Otherwise they are elapsed times.
-    """
-
-    values: Array
-    instants: bool = True
+    values: Array  # (n,) s, NaN where there is none
+    instants: bool = True  # dates, times of the day or GPS time; otherwise elapsed times
+    # what instants count from: the midnight before the first (UTC, or GPS time where the file counts in that), if the day is known
     origin: datetime | None = None
     notes: tuple[str, ...] = ()
 

@@ -33,7 +33,7 @@ from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.arrays import count_seconds
 from ragg_runtime.io.instants import WAYS, are_packed, parse_order, read_epoch, read_stamps
-from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE, Mask
+from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.tables import (
     INDEX,
     MISSING,
@@ -60,7 +60,7 @@ Null = tuple[float | str, ...]  # what stands for a missing value: numbers in th
 
 @dataclass(frozen=True)
 class Entry:
-    """A channel: the file's column and unit; a value is ``factor`` times the file's, plus ``offset`` (in the unit)."""
+    """A channel: a value is ``factor`` times the file's, plus ``offset`` (in the unit)."""
 
     column: str
     unit: str
@@ -71,33 +71,31 @@ class Entry:
 
 @dataclass(frozen=True)
 class TimeEntry:
-    """The columns of time and how it is written (``None``: recognised); ``origin``: when plain seconds were 0."""
+    """The columns of time, and how it is written."""
 
     columns: tuple[str, ...]
-    format: str | None = None
+    format: str | None = None  # None: recognised
     unit: str = ""
-    origin: datetime | None = None
+    origin: datetime | None = None  # when plain seconds were 0
     null: Null = ()
 
 
 @dataclass(frozen=True)
 class Mapped:
-    """A mapping as it was read; see the module's text for the file.
-
-    ``axes``: for x, y, z of the measurement frame, the recorder's axis (0, 1, 2) and its sign. ``digest``: SHA-256 of
-    the text. ``kept``: it is the model's own, and does not apply to files that have none of its columns.
-    """
+    """A mapping as it was read; see the module's text for the file."""
 
     path: Path
     time: TimeEntry
     channels: Mapping[str, Entry]
-    axes: tuple[tuple[int, float], ...] | None = None
+    axes: tuple[tuple[int, float], ...] | None = (
+        None  # for x, y, z: the recorder's axis (0, 1, 2) and its sign
+    )
     line: str | None = None
     lines: tuple[str, ...] | None = None
     part: str | None = None
     demodulator: Demodulation | None = None
-    digest: str = ""
-    kept: bool = False
+    digest: str = ""  # SHA-256 of the text
+    kept: bool = False  # it is the model's own, and does not apply to files that have none of its columns
 
     @property
     def columns(self) -> frozenset[str]:
@@ -155,29 +153,20 @@ def _refuse(what: str, where: str, found: object, expected: str, remedy: str | N
 
 
 def _take(table: Mapping[str, Any], key: str, kind: type, where: str, default: Any) -> Any:
-    """A text or a number in a table, or its default."""
+    """A text, which may have to be a ``unit``, or a number in a table, or its default."""
     raw = table.get(key, "")
     if raw == "":
         return default
     if raw == UNKNOWN:
-        raise _refuse(
-            f"the {key} is not answered yet",
-            where,
-            raw,
-            "that of the file; 1 for a pure number; none is guessed",
-        )
+        expected = "that of the file; 1 for a pure number; none is guessed"
+        raise _refuse(f"the {key} is not answered yet", where, raw, expected)
     if kind is str and isinstance(raw, str) and raw.strip():
+        if key == "unit":
+            units(9.8).parse(raw, where)  # whether a text is a unit does not depend on the model's g
         return raw
     if kind is float and isinstance(raw, int | float) and not isinstance(raw, bool) and abs(raw) < 1e100:
         return float(raw)
     raise _refuse(f"{key} is not a {'text' if kind is str else 'number'}", where, raw, f"{key} = ...")
-
-
-def _take_unit(table: Mapping[str, Any], where: str) -> str:
-    unit: str = _take(table, "unit", str, where, "")
-    if unit:
-        units(9.8).parse(unit, where)  # whether a text is a unit does not depend on the model's g
-    return unit
 
 
 def _read_null(table: Mapping[str, Any], where: str) -> Null:
@@ -197,15 +186,14 @@ def _parse_entry(name: str, raw: Any, null: Null, where: str) -> Entry:
         example = f'{name} = {{ column = "its name in the file", unit = "..." }}'
         raise _refuse("the column of the file is not named", where, raw, example)
     check_keys(raw, _KEYS["columns"], where)
-    sign, scale, offset = (
-        _take(raw, n, float, where, x) for n, x in (("sign", 1.0), ("scale", 1.0), ("offset", 0.0))
-    )
+    given = {"sign": 1.0, "scale": 1.0, "offset": 0.0}
+    sign, scale, offset = (_take(raw, n, float, where, usual) for n, usual in given.items())
     if sign not in (1.0, -1.0):
         raise _refuse("sign is 1 or -1", where, raw["sign"], "scale for other factors")
     if scale == 0.0:
         raise UserError("the scale must not be zero", where=where)
-    column = _take(raw, "column", str, where, "")
-    return Entry(column, _take_unit(raw, where), sign * scale, offset, null + _read_null(raw, where))
+    column, unit = (_take(raw, n, str, where, "") for n in ("column", "unit"))
+    return Entry(column, unit, sign * scale, offset, null + _read_null(raw, where))
 
 
 def _parse_time(raw: Mapping[str, Any], form: Any, null: Null, where: str) -> TimeEntry:
@@ -215,13 +203,11 @@ def _parse_time(raw: Mapping[str, Any], form: Any, null: Null, where: str) -> Ti
     ordered = parse_order(written) is not None
     if written not in ("seconds", *WAYS) and not ordered:
         known = "seconds, " + ", ".join(f"{n} ({example})" for n, (_, example) in WAYS.items())
-        raise _refuse(
-            "no such format of time", where, written, known, did_you_mean(written, ("seconds", *WAYS))
-        )
+        near = did_you_mean(written, ("seconds", *WAYS))
+        raise _refuse("no such format of time", where, written, known, near)
     needed = WAYS[written][0] if written in WAYS else 1
-    if len(names) not in ((1, 2) if ordered else (needed,)) or not all(
-        isinstance(n, str) and n for n in names
-    ):
+    fits = len(names) == needed or (ordered and len(names) == 2)
+    if not fits or not all(isinstance(n, str) and n for n in names):
         how, example = ("two columns", '["DATE", "CLOCK"]') if needed == 2 else ("one column", '"..."')
         raise _refuse(f"time as {written!r} needs {how}", where, columns, f"column = {example}")
     origin = raw.get("origin")
@@ -229,19 +215,17 @@ def _parse_time(raw: Mapping[str, Any], form: Any, null: Null, where: str) -> Ti
         raise _refuse("origin is the instant of second 0", where, origin, "2026-03-01T00:00:00Z, of seconds")
     if origin is not None and origin.tzinfo is None:
         origin = origin.replace(tzinfo=UTC)
-    return TimeEntry(names, written, _take_unit(raw, where), origin, null + _read_null(raw, where))
+    unit = _take(raw, "unit", str, where, "")
+    return TimeEntry(names, written, unit, origin, null + _read_null(raw, where))
 
 
 def _read_axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:
-    found, turned = [], np.zeros((3, 3))
-    for k, axis in enumerate("xyz"):
-        text = str(raw.get(axis, axis)).strip().lstrip("+")
-        bare = text.removeprefix("-")
-        if bare not in ("x", "y", "z"):
+    texts = {axis: str(raw.get(axis, axis)).strip().lstrip("+") for axis in "xyz"}
+    for axis, text in texts.items():
+        if not re.fullmatch("-?[xyz]", text):
             raise _refuse("not an axis", at(where, axis), raw.get(axis), '"x", "-y" ...')
-        found.append(("xyz".index(bare), -1.0 if text != bare else 1.0))
-        turned[k, found[-1][0]] = found[-1][1]
-    volume = round(np.linalg.det(turned))
+    found = tuple(("xyz".index(t[-1]), -1.0 if t[0] == "-" else 1.0) for t in texts.values())
+    volume = round(np.linalg.det([np.eye(3)[k] * sign for k, sign in found]))
     if volume != 1:
         raise UserError(
             "the axes are a mirror image, not a rotation" if volume else "an axis appears twice",
@@ -250,7 +234,7 @@ def _read_axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], .
             expected="a right-handed frame, such as x = y, y = x, z = -z between NED and ENU",
             remedy="if a sensor is reversed, give its column sign = -1",
         )
-    return tuple(found)
+    return found
 
 
 # --- the flights in a file ------------------------------------------------------------------------------
@@ -457,12 +441,13 @@ def split_lines(tables: Sequence[DataTable], column: str | None, where: Path | s
             expected=f"at most {MOST_LINES}, or another column in a mapping: [file] line = ...",
         )
     codes, names = pd.factorize(np.array([name_line(v) for v in different], dtype=object)[which])
-    rows = np.split(np.argsort(codes, kind="stable"), np.cumsum(np.bincount(codes))[:-1])
-    lost = sum(len(r) for r, n in zip(rows, names, strict=True) if not n)
+    parts = np.split(np.argsort(codes, kind="stable"), np.cumsum(np.bincount(codes))[:-1])
+    rows = dict(zip(names, parts, strict=False))  # of a table without rows there is one part, and no name
+    lost = len(rows.pop("", ()))
     note = [f"{count(lost, 'row')} without the name of a line left out"] * bool(lost)
     others = tuple(x for x in table.columns if x is not c)
     rest = replace(table, columns=others, notes=(*table.notes, *note))
-    return [replace(rest.rows(r), line=n) for r, n in zip(rows, names, strict=True) if n]
+    return [replace(rest.rows(r), line=n) for n, r in rows.items()]
 
 
 def name_line(value: object) -> str:
@@ -512,19 +497,17 @@ def _read_numbers(c: DataColumn, table: DataTable, null: Null, remedy: str | Non
 
 def _leave_out_codes(c: DataColumn, null: Null, notes: list[str]) -> DataColumn:
     """The column without codes of missing values, given by the mapping or recognised, which ``notes`` report."""
-    values = c.values
-
-    def leave_out(code: float, hit: Mask) -> None:
-        nonlocal values
-        if hits := int(np.sum(hit)):
-            unit = "" if c.unit in ("", "1") else f" {c.unit}"
-            notes.append(f"{c.name}: left out as missing: {count(hits, 'value')} of {code:.10g}{unit}")
+    codes = [x for x in null if isinstance(x, float)]
+    hits = [(x, np.isclose(c.values, x, rtol=1e-6, atol=0.0)) for x in codes]
+    values = np.where(np.any([hit for _, hit in hits], axis=0), np.nan, c.values) if hits else c.values
+    hits += [(x, values == x) for x in find_codes(values, known_only=c.name == "time")]
+    unit = "" if c.unit in ("", "1") else f" {c.unit}"
+    for code, hit in hits:
+        if hit.any():
+            notes.append(
+                f"{c.name}: left out as missing: {count(int(np.sum(hit)), 'value')} of {code:.10g}{unit}"
+            )
             values = np.where(hit, np.nan, values)
-
-    for code in (n for n in null if isinstance(n, float)):
-        leave_out(code, np.isclose(values, code, rtol=1e-6, atol=0.0))
-    for code in find_codes(values, known_only=c.name == "time"):
-        leave_out(code, values == code)
     return replace(c, values=values)
 
 

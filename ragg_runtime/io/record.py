@@ -76,61 +76,42 @@ def is_disc_angle(name: str) -> bool:
 
 @dataclass(frozen=True)
 class Flag:
-    """Something odd about some samples of a record, and what that means for a verdict.
+    """Something odd about some samples of a record, and what that means for a verdict."""
 
-    Attributes
-    ----------
-    columns
-        Names of the columns that it is about; empty: the whole record.
-    reason
-        What is odd, and what was done about it, as one sentence for people: the note that a user reads.
-    open
-        Whether it is still in the record: of such a record only ``effects`` may be claimed.
-    effects
-        Ids of effects that describe the same, and may be claimed with it.
-    kind
-        ``motion-noise`` of sensors whose noise shows in the output, ``still`` where one of their columns holds one value, ``coarse`` of a
-        thermometer that reads few values; else empty.
-    """
-
-    columns: tuple[str, ...]
-    reason: str
-    open: bool = False
-    effects: tuple[str, ...] = ()
+    columns: tuple[str, ...]  # names of those that it is about; empty: the whole record
+    reason: (
+        str  # what is odd, and what was done about it, as one sentence for people: the note that a user reads
+    )
+    open: bool = False  # whether it is still in the record: of such a record only ``effects`` may be claimed
+    effects: tuple[str, ...] = ()  # ids of those that describe the same, and may be claimed with it
+    # motion-noise of sensors whose noise shows in the output, still where one of their columns holds one value, coarse of a
+    # thermometer that reads few values; else empty
     kind: str = ""
 
 
 @dataclass(frozen=True, eq=False)
 class Flight:
-    """A uniformly sampled record of motion, auxiliary channels and output, in SI, float64.
+    """A uniformly sampled record of motion, auxiliary channels and output, in SI, float64."""
 
-    ``time`` (N,) s has a sample every 1/rate. ``channels``: name -> (N,), motion (m/s^2, rad/s, rad/s^2), gradients
-    (s^-2), ``spin_angle`` (rad), auxiliaries; interpolated where the file has none. ``outputs``: name -> (N,),
-    ``G_out`` and ``V_1`` ... in V, ``inline`` and ``cross`` in s^-2; NaN where the file has none. ``valid`` (N,): False
-    where a sample is missing or incomplete. ``units``: SI, of every column; ``written``: those of the file. ``digest``:
-    SHA-256 of the file. ``demodulation``: how ``inline`` and ``cross`` were made, by the mapping. ``flags``: what
-    was found odd (each is among the ``notes``, too).
-    ``instants``: whether the file's stamps are instants (dates, GPS time), not seconds. ``origin``: the instant at which ``time`` is
-    0, if it is known. ``began``: time, s, of the first sample of the record that this is, or is a part of. ``lacking`` (N,): where
-    the file has no angular rates (``None``: nowhere).
-    """
-
-    time: Array
+    time: Array  # (N,) s: a sample every 1/rate
+    # name -> (N,): motion (m/s^2, rad/s, rad/s^2), gradients (s^-2), spin_angle (rad), auxiliaries; interpolated where the file has none
     channels: Mapping[str, Array]
+    # name -> (N,): G_out and V_1 ... in V, inline and cross in s^-2; NaN where the file has none
     outputs: Mapping[str, Array]
     name: str = "flight"
     path: Path | None = None
-    digest: str = ""
+    digest: str = ""  # SHA-256 of the file
     notes: tuple[str, ...] = ()
+    # (N,): False where a sample is missing or incomplete
     valid: Mask = field(default_factory=lambda: np.ones(0, dtype=np.bool_))
-    units: Mapping[str, str] = field(default_factory=dict)
-    written: Mapping[str, str] = field(default_factory=dict)
-    demodulation: Demodulation | None = None
-    flags: tuple[Flag, ...] = ()
-    instants: bool = False
-    origin: datetime | None = None
-    began: float | None = None
-    lacking: Mask | None = None
+    units: Mapping[str, str] = field(default_factory=dict)  # SI, of every column
+    written: Mapping[str, str] = field(default_factory=dict)  # those of the file
+    demodulation: Demodulation | None = None  # how inline and cross were made, by the mapping
+    flags: tuple[Flag, ...] = ()  # what was found odd; each is among the notes, too
+    instants: bool = False  # whether the file's stamps are instants (dates, GPS time), not seconds
+    origin: datetime | None = None  # the instant at which time is 0, if it is known
+    began: float | None = None  # time, s, of the first sample of the record that this is, or is a part of
+    lacking: Mask | None = None  # (N,): where the file has no angular rates; None: nowhere
 
     def __post_init__(self) -> None:
         changes: dict[str, Any] = {

@@ -60,18 +60,14 @@ _BY_COUNT = "if sampling continued, give the times by the sample count: time = r
 
 @dataclass(frozen=True)
 class ClockStep:
-    """A place where the stamps move on by ``size``, s, more than the samples: before ``row``, at ``time``, s.
+    """A place where the stamps move on by more than the samples."""
 
-    ``part``, s, of it is no whole number of steps; 0 where samples may just be missing. ``until``: the row up to which the clock was
-    slewed by it; 0: it was set at once.
-    """
-
-    row: int
-    time: float
-    size: float
-    part: float
-    until: int = 0
-    ends: float = 0.0
+    row: int  # before which they do
+    time: float  # s
+    size: float  # s
+    part: float  # of it, s, that is no whole number of steps; 0 where samples may just be missing
+    until: int = 0  # the row up to which the clock was slewed; 0: it was set at once
+    ends: float = 0.0  # the time there, s
 
     def __str__(self) -> str:
         until = f" to {self.ends:.10g}" if self.until else ""
@@ -80,15 +76,11 @@ class ClockStep:
 
 @dataclass(frozen=True)
 class Grid:
-    """The positions of the file's samples on the uniform grid.
+    """The positions of the file's samples on the uniform grid."""
 
-    ``index`` (n,): places of the file's samples, increasing from 0. ``time`` (N,) s: the whole grid, the file's own
-    instants where it has a sample. ``step``: s.
-    """
-
-    index: NDArray[np.int64]
-    time: Array
-    step: float
+    index: NDArray[np.int64]  # (n,): places of the file's samples, increasing from 0
+    time: Array  # (N,) s: the whole grid, the file's own instants where it has a sample
+    step: float  # s
     notes: tuple[str, ...]
 
     @property
@@ -244,12 +236,6 @@ def _find_unit(time: Array) -> float | None:
     unit = float(time[-1] - time[0]) / float(places[-1])
     slack = max(1e-6 * unit, noise)
     return unit if slack < 0.1 * unit and np.all(np.abs(time[1:] - time[0] - places * unit) < slack) else None
-
-
-def _find_single(time: Array) -> float | None:
-    """The spacing, s, of stamps that are in single precision; ``None``: they are not."""
-    single = time.astype(np.float32)
-    return float(np.spacing(np.abs(single).max())) if np.array_equal(single, time) else None
 
 
 def _round_rate(step: float, error: float) -> float:
@@ -427,18 +413,19 @@ def _require_increasing(time: Array, path: Path | str | None, where: str) -> Non
 
 def _describe_coarse(time: Array, steps: Array) -> tuple[str, str]:
     """What was found and the remedy where several rows share each stamp: whole seconds, or single precision."""
-    edges, single = np.flatnonzero(steps != 0) + 1, _find_single(time)
+    edges, single = np.flatnonzero(steps != 0) + 1, time.astype(np.float32)
+    spacing = float(np.spacing(np.abs(single).max())) if np.array_equal(single, time) else 0.0
     rows = len(time) / (len(edges) + 1)
     found = f"{count(len(edges) + 1, 'different stamp')} in {len(time)} rows, each in about {rows:.4g} rows"
     rate = "rate"
-    if single is not None and single >= 1e-3:
-        found += f"; single precision has steps of {single:.3g} s there"
+    if spacing >= 1e-3:
+        found += f"; single precision has steps of {spacing:.3g} s there"
     elif len(edges):
         found += "; they are whole seconds" * np.array_equal(np.rint(time), time)
         rate = f"{rows / float(np.median(steps[edges - 1])):.6g} Hz"
     else:
         found += ": the clock stands still"
-    return (
-        found,
-        f"give the times by the rate and the number of the row: time = row / {rate}; no row is duplicated",
+    remedy = (
+        f"give the times by the rate and the number of the row: time = row / {rate}; no row is duplicated"
     )
+    return found, remedy

@@ -71,14 +71,11 @@ _NINES = re.compile(r"-?9{3,}(?:\.(?:0|25|9+))?")
 
 @dataclass(frozen=True, eq=False)
 class DataColumn:
-    """Values (n,) of a column under its name, and their unit (``""``: none given; of instants ``s since 2026-03-01``).
-
-    ``values``: float64 with NaN for nothing, or object: texts with ``""`` for nothing.
-    """
+    """A column of a table, as a file has it."""
 
     name: str
-    unit: str
-    values: NDArray[Any]
+    unit: str  # "": none given; of instants "s since 2026-03-01"
+    values: NDArray[Any]  # (n,) float64 with NaN for nothing, or object: texts with "" for nothing
 
     @property
     def is_text(self) -> bool:
@@ -95,28 +92,23 @@ class DataColumn:
 
 @dataclass(frozen=True, eq=False)
 class DataTable:
-    """Columns of one length: as a file has them or, once read, those of a flight under the names of the contract.
-
-    ``line`` is the flight line, where there are several; ``part`` the group, structure or sheet; ``index`` the name of
-    the column that labels the rows (the index of a DataFrame); ``notes`` what was made of the file. ``counts`` is how
-    the file itself counts its rows: its word for them, and the number of the first. ``decimal`` is the mark in its texts.
-
-    Of a flight further: ``place`` for messages; ``origin``, the instant at which ``time`` is 0, if it is known (UTC, or
-    GPS time where the file counts in that); ``instants``, whether its stamps are instants, not seconds; ``demodulation``,
-    how its channels were made, if that is known.
-    """
+    """Columns of one length: as a file has them or, once read, those of a flight under the names of the contract."""
 
     columns: tuple[DataColumn, ...]
-    line: str | None = None
-    part: str = ""
-    notes: tuple[str, ...] = ()
-    index: str | None = None
+    line: str | None = None  # the flight line, where there are several
+    part: str = ""  # group, structure or sheet
+    notes: tuple[str, ...] = ()  # what was made of the file
+    index: str | None = None  # the column that labels the rows: the index of a DataFrame
+    # how the file counts its rows: its word for them, and the number of the first
     counts: tuple[str, int] = ("row", 1)
-    decimal: str = ""
-    place: str = ""
-    origin: datetime | None = None
-    instants: bool = False
-    demodulation: Demodulation | None = None
+    decimal: str = ""  # the mark in its texts
+    # of a flight
+    place: str = ""  # for messages
+    origin: datetime | None = (
+        None  # the instant at which time is 0, if known (UTC, or GPS time where the file has that)
+    )
+    instants: bool = False  # whether its stamps are instants, not seconds
+    demodulation: Demodulation | None = None  # how its channels were made, if that is known
 
     def __len__(self) -> int:
         return len(self.columns[0].values) if self.columns else 0

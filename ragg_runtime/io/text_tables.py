@@ -62,14 +62,12 @@ _OTHER_WIDTH = re.compile(r"CSV parse error: (?:Row #(\d+): )?Expected (\d+) col
 
 @dataclass(frozen=True)
 class Header:
-    """Names and units of the columns of a table, the position of its first row of data, the share of rows that are
-    data from there on, and what was made of it.
-    """
+    """What the columns of a table are called, and where its data begin."""
 
     names: tuple[str, ...]
     units: tuple[str, ...]
-    begins: int
-    share: float
+    begins: int  # position of the first row of data
+    share: float  # of the rows from there on that are data
     notes: tuple[str, ...] = ()
 
 
@@ -87,10 +85,9 @@ def find_header(rows: Sequence[Sequence[str]]) -> Header | None:
     data = [_is_data(rows[k]) for k in alike]
     # numbers before the header are followed by other text, or have their names in front
     kinds = [is_number(rows[k][0]) for k in alike]
-    share = sum(k for k, yes in zip(kinds, data, strict=True) if yes) / max(1, sum(data))
+    share = np.mean([k for k, yes in zip(kinds, data, strict=True) if yes] or [False])
     usual = {True, False} if 0.1 < share < 0.9 else {share > 0.5}
-    starts = (k for k in range(len(alike)) if all(data[k : k + 3]) and kinds[k] in usual)
-    first = next(starts, len(alike))
+    first = next((k for k in range(len(alike)) if all(data[k : k + 3]) and kinds[k] in usual), len(alike))
     begins = alike[first] if first < len(alike) else len(rows)
     above = [k for k in alike[:first] if any(map(_is_filled, rows[k]))]
     if not above:
