@@ -49,28 +49,16 @@ TELLING = 512  # samples of demodulated channels that are looked at of a stretch
 
 @dataclass(frozen=True)
 class Rows:
-    """n rows of a flight, not necessarily neighbours (neighbours where only the channels are recorded).
+    """n rows of a flight, not necessarily neighbours (neighbours where only the channels are recorded)."""
 
-    Attributes
-    ----------
-    sampler
-        What they are taken from.
-    data
-        (m, n) V: the output; of channels k_ggi (inline/2, -cross).
-    time, phi
-        (n,) s since the flight's first sample; disc angle, rad.
-    channels
-        Name -> (n,) SI; time derivatives (``d_a_x``) that the model asks for among them.
-    usable
-        (n,) rows whose output is there.
-    """
-
-    sampler: Sampler
-    data: Array
-    time: Array
-    phi: Array
-    channels: Mapping[str, Array]
-    usable: Mask
+    sampler: Sampler  # what they are taken from
+    data: Array  # (m, n) V: the output; of channels k_ggi (inline/2, -cross)
+    time: Array  # (n,) s since the flight's first sample
+    phi: Array  # (n,) disc angle, rad
+    channels: Mapping[
+        str, Array
+    ]  # name -> (n,) SI; time derivatives (d_a_x) that the model asks for among them
+    usable: Mask  # (n,) rows whose output is there
 
     @property
     def inputs(self) -> Array:
@@ -107,21 +95,17 @@ class Rows:
 
 @dataclass(frozen=True)
 class Sampler:
-    """Takes rows of the output ``place`` of a flight, for fits of a model.
-
-    ``columns`` hold the output in the form ``recorded``; ``usable`` (N,): it is there and not saturated; ``derived``: time derivatives
-    that the model asks for; ``taps``: low-pass of the demodulator.
-    """
+    """Takes rows of an output of a flight, for fits of a model."""
 
     model: Model
     instrument: Instrument
     flight: Flight
-    place: int
-    recorded: RecordedSeries
-    columns: tuple[str, ...]
-    usable: Mask
-    derived: Mapping[str, Array]
-    taps: Array
+    place: int  # of the output
+    recorded: RecordedSeries  # the form in which it is recorded
+    columns: tuple[str, ...]  # which hold it
+    usable: Mask  # (N,): it is there and not saturated
+    derived: Mapping[str, Array]  # time derivatives that the model asks for
+    taps: Array  # low-pass of the demodulator
 
     def with_flight(self, flight: Flight) -> Sampler:
         """The same of another flight."""
@@ -250,30 +234,15 @@ SETTLED = 0.999  # factor by which the noise must still fall for the estimate to
 
 @dataclass(frozen=True)
 class LinearFit:
-    """What a model leaves of rows of a record once its parameters are fitted.
+    """What a model leaves of rows of a record once its parameters are fitted."""
 
-    Attributes
-    ----------
-    rms
-        Size of the residual without its outliers, Eo.
-    size
-        Size of the output about its mean, Eo.
-    p
-        Fitted parameter vector of the model's chain, SI.
-    surprise
-        Sum of the squares of the parameters' moves, in plausible sizes.
-    volume
-        What the record determines of the parameters: the logarithm of prior over posterior volume, the price of wide priors.
-    kept
-        Share of the rows that are no outliers.
-    """
-
-    rms: float
-    size: float
-    p: Array
-    surprise: float
+    rms: float  # of the residual without its outliers, Eo
+    size: float  # of the output about its mean, Eo
+    p: Array  # fitted parameter vector of the model's chain, SI
+    surprise: float  # sum of the squares of the parameters' moves, in plausible sizes
+    # what the record determines of the parameters: the logarithm of prior over posterior volume, the price of wide priors
     volume: float
-    kept: float = 1.0
+    kept: float = 1.0  # share of the rows that are no outliers
 
     @property
     def share(self) -> float:
@@ -293,31 +262,18 @@ class LinearFit:
 
 @dataclass(frozen=True)
 class Hypothesis:
-    """What may be wrong with a record or its sheet.
+    """What may be wrong with a record or its sheet."""
 
-    Attributes
-    ----------
-    what, remedy
-        In words.
-    fitted
-        What the model leaves if this is so.
-    cost
-        What orders hypotheses that explain as much, the plainest first: far below ``mistakes.AS_GOOD``.
-    kind
-        ``record`` (units, signs, axes, clock: the record is refused), ``shift`` (motion and output apart in time), ``origin``
-        (the disc angle counts from elsewhere), ``losses`` (rows are missing all along) or ``sheet`` (its priors are too narrow).
-    effects
-        Ids of effects that describe the same.
-    calming
-        Whether it is enough that the parameters stay closer to the sheet; a mistake of timing must leave less.
-    """
-
-    what: str
+    what: str  # in words
     remedy: str
-    fitted: LinearFit
+    fitted: LinearFit  # what the model leaves if this is so
+    # what orders hypotheses that explain as much, the plainest first: far below mistakes.AS_GOOD
     cost: float = 0.0
+    # record (units, signs, axes, clock: the record is refused), shift (motion and output apart in time), origin (the disc angle counts
+    # from elsewhere), losses (rows are missing all along) or sheet (its priors are too narrow)
     kind: str = "record"
-    effects: tuple[str, ...] = ()
+    effects: tuple[str, ...] = ()  # ids of those that describe the same
+    # whether it is enough that the parameters stay closer to the sheet; a mistake of timing must leave less
     calming: bool = False
 
     def score(self, before: LinearFit) -> float:

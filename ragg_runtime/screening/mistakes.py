@@ -141,15 +141,12 @@ def _farthest(s: Sampler, fitted: LinearFit) -> str:
 
 @dataclass(frozen=True)
 class ColumnMistake:
-    """One possible mistake: in words, what to do, and rows as they are -> rows without it.
+    """One possible mistake of unit, sign, axis or order."""
 
-    ``plainness``: of mistakes that explain a record equally well the smallest is named first.
-    """
-
-    what: str
+    what: str  # in words
     remedy: str
-    undo: Callable[[Rows], Rows]
-    plainness: int = 0
+    undo: Callable[[Rows], Rows]  # rows as they are -> rows without it
+    plainness: int = 0  # of mistakes that explain a record equally well the smallest is named first
 
 
 def _columns(s: Sampler) -> list[Hypothesis]:

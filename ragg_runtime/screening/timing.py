@@ -257,12 +257,12 @@ def propose_parts(s: Sampler) -> list[Hypothesis]:
 
 @dataclass(frozen=True)
 class _Late:
-    """What may be late: ``name`` in words, its ``columns``, ``against`` what, the quantities ``of`` motion; none: the output."""
+    """What may be late."""
 
-    name: str
+    name: str  # in words
     columns: str
-    against: str
-    of: tuple[str, ...] = ()
+    against: str  # what
+    of: tuple[str, ...] = ()  # the quantities of motion; none: the output
 
     def options(self, s: Sampler, k: int | Index) -> dict[str, Any]:
         """Those of :meth:`Sampler.take` for rows as if this were not ``k`` samples late, one or (n,)."""
