@@ -161,7 +161,7 @@ void traffic(size_t n, const double *restrict t, const double *restrict x, doubl
 def memory_traffic(out: Array) -> Function:
     """Reads t and the 15 rows of x and writes ``out``, by a small C loop: the memory bound."""
     streams = " ".join(f"+ x[{k} * n + i]" for k in range(len(INPUTS)))
-    library = chain.load(chain.build({"traffic.c": TRAFFIC % streams}))
+    library = chain.load(chain.compile_library({"traffic.c": TRAFFIC % streams}))
 
     def run(t: Array, x: Array) -> Array:
         library.traffic(ctypes.c_size_t(len(t)), *(ctypes.c_void_p(a.ctypes.data) for a in (t, x, out)))

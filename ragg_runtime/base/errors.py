@@ -80,42 +80,42 @@ def count(number: int, what: str) -> str:
     return f"{number} {what}{'s' * (number != 1)}"
 
 
-def did_you_mean(name: str, known: Iterable[str]) -> str | None:
+def did_you_mean(name: str, choices: Iterable[str]) -> str | None:
     """A remedy that names the closest known name, or ``None``."""
-    known = list(known)
-    folded = {k.casefold(): k for k in reversed(known)}
+    choices = list(choices)
+    folded = {k.casefold(): k for k in reversed(choices)}
     near = difflib.get_close_matches(name.casefold(), list(folded), n=1, cutoff=0.6)
     return f"did you mean {folded[near[0]]!r}?" if near else None
 
 
-def check_keys(keys: Iterable[object], known: Iterable[str], where: str | Path | None = None) -> None:
+def check_keys(keys: Iterable[object], allowed: Iterable[str], where: str | Path | None = None) -> None:
     """UserError at the first key that is none of the known ones."""
-    known = list(known)
+    allowed = list(allowed)
     for key in keys:
-        if key not in known:
+        if key not in allowed:
             raise UserError(
                 f"unknown key {str(key)[:60]!r}",
                 where=where,
-                expected="one of " + ", ".join(known),
-                remedy=did_you_mean(str(key)[:60], known),
+                expected="one of " + ", ".join(allowed),
+                remedy=did_you_mean(str(key)[:60], allowed),
             )
 
 
-def check_table(found: object, what: str, where: str | Path | None, expected: str) -> dict[str, Any]:
-    """``found`` as a table of TOML; UserError if it is none."""
-    if not isinstance(found, dict):
-        raise UserError(f"{what} must be a table", where=where, found=repr(found)[:60], expected=expected)
-    return found
+def check_table(table: object, what: str, where: str | Path | None, expected: str) -> dict[str, Any]:
+    """``table``; UserError if it is no table of TOML."""
+    if not isinstance(table, dict):
+        raise UserError(f"{what} must be a table", where=where, found=repr(table)[:60], expected=expected)
+    return table
 
 
-def check_choice(found: object, known: Sequence[object], where: str, what: str = "no such choice") -> Any:
-    """``found``, one of the values known, of the same type (true is no 1); UserError if it is none of them."""
-    for value in known:
-        if type(found) is type(value) and found == value:
-            return value
-    shown = " or ".join(f'"{v}"' if isinstance(v, str) else str(v).lower() for v in known)
-    near = did_you_mean(found, [v for v in known if isinstance(v, str)]) if isinstance(found, str) else None
-    raise UserError(what, where=where, found=repr(found)[:60], expected=shown, remedy=near)
+def check_choice(value: object, choices: Sequence[object], where: str, what: str = "no such choice") -> Any:
+    """``value``, if it is one of the ``choices``, of the same type (true is no 1); else UserError."""
+    for choice in choices:
+        if type(value) is type(choice) and value == choice:
+            return choice
+    expected = " or ".join(f'"{v}"' if isinstance(v, str) else str(v).lower() for v in choices)
+    near = did_you_mean(value, [v for v in choices if isinstance(v, str)]) if isinstance(value, str) else None
+    raise UserError(what, where=where, found=repr(value)[:60], expected=expected, remedy=near)
 
 
 def printable(text: str) -> str:
@@ -128,14 +128,14 @@ def one_line(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
-def read_name(found: object, where: str, example: str | None = None) -> str:
-    """``found``, from ``where`` (file and key); UserError if it is not a name."""
-    if isinstance(found, str) and is_name(found):
-        return found
+def read_name(value: object, where: str, example: str | None = None) -> str:
+    """``value``, from ``where`` (file and key); UserError if it is not a name."""
+    if isinstance(value, str) and is_name(value):
+        return value
     raise UserError(
         "not a name",
         where=where,
-        found=repr(found)[:80],
+        found=repr(value)[:80],
         expected=EXPECTED + ("" if example is None else f", such as {example}"),
     )
 

@@ -105,7 +105,7 @@ def write_bytes(path: Path, content: bytes) -> None:
         temporary.write_bytes(content)
 
 
-def opened(path: Path) -> BufferedReader:
+def open_regular(path: Path) -> BufferedReader:
     """A user's file, to read. A pipe or a device would be waited for, or never end: UserError."""
     if path.exists() and not path.is_file():
         what = "directory" if path.is_dir() else "pipe or a device"
@@ -115,14 +115,14 @@ def opened(path: Path) -> BufferedReader:
 
 def file_digest(path: Path) -> str:
     """SHA-256 of a user's file, hexadecimal."""
-    with opened(path) as stream:
+    with open_regular(path) as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 def read_text(path: Path, longest: int = 1 << 20) -> str:
     """The text of a user's file, UTF-8 with or without a byte-order mark, of at most ``longest`` bytes."""
     try:
-        with opened(path) as stream:
+        with open_regular(path) as stream:
             data = stream.read(longest + 1)
         if len(data) > longest:
             raise UserError("the file is too long", where=path, expected=f"at most {longest} bytes")
@@ -141,7 +141,7 @@ def read_text(path: Path, longest: int = 1 << 20) -> str:
         raise UserError("the file cannot be read", where=path, found=error.strerror) from None
 
 
-def locked(path: Path, patience: float) -> filelock.BaseFileLock:
+def lock(path: Path, patience: float) -> filelock.BaseFileLock:
     """The lock of a file or folder, held in a ``with`` block; TimeoutError if another process of the user holds it for longer, s."""
     name = hashlib.sha256(os.fsencode(os.path.realpath(path))).hexdigest()[:32]
     return filelock.FileLock(find_private_folder("locks") / name, timeout=patience)
@@ -176,13 +176,13 @@ MISSING = "not installed"
 
 
 @cache
-def versions() -> dict[str, str]:
+def list_versions() -> dict[str, str]:
     """Name -> version of this package, Python and the libraries that results depend on."""
-    found = {"ragg": _installed("ragg"), "python": platform.python_version()}
-    return found | {name: _installed(name) for name in LIBRARIES}
+    program = {"ragg": _find_version("ragg"), "python": platform.python_version()}
+    return program | {name: _find_version(name) for name in LIBRARIES}
 
 
-def _installed(name: str) -> str:
+def _find_version(name: str) -> str:
     try:
         return metadata.version(name)
     except metadata.PackageNotFoundError:
@@ -194,7 +194,7 @@ def provenance(
 ) -> dict[str, object]:
     """The object ``provenance`` of a JSON result: command line, identity of the model, (path, SHA-256) of the flights."""
     flights = [{"path": path, "digest": digest} for path, digest in files]
-    return {**versions(), **(model or {}), "flights": flights, "command": made_by}
+    return {**list_versions(), **(model or {}), "flights": flights, "command": made_by}
 
 
 @cache

@@ -54,7 +54,7 @@ def listening(tell: Callable[[float], None]) -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def shown(command: str, samples: int) -> Iterator[None]:
+def show_progress(command: str, samples: int) -> Iterator[None]:
     """Say on stderr how far ``command`` is with flights of so many ``samples``: one line that changes, or a line now and then."""
     total, terminal = PASSES[command] * max(samples, 1), sys.stderr.isatty()
     done, start = 0.0, time.monotonic()
@@ -86,9 +86,9 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 
-def split_range(length: int, most: int) -> list[slice]:
+def split_range(length: int, longest: int) -> list[slice]:
     """Consecutive slices of at most so many of ``length`` items."""
-    return [slice(k, min(k + most, length)) for k in range(0, length, most)]
+    return [slice(k, min(k + longest, length)) for k in range(0, length, longest)]
 
 
 @functools.cache

@@ -82,22 +82,22 @@ _DERIVATIVE = re.compile(r"d(2?)_(.+)")
 
 def series(name: str, channels: Collection[str] = ()) -> Series:
     """The series of a name; ``channels`` are names of channels, whatever they look like."""
-    return ChannelName(name) if name in channels else _parsed(name, frozenset(channels))
+    return ChannelName(name) if name in channels else _parse(name, frozenset(channels))
 
 
 @cache
-def _parsed(name: str, channels: frozenset[str]) -> Series:
+def _parse(name: str, channels: frozenset[str]) -> Series:
     if name in channels:
         return ChannelName(name)
-    if (found := _RELAXATION.fullmatch(name)) is not None:
-        return Relaxation(_parsed(found[1], channels), found[2])
+    if (match := _RELAXATION.fullmatch(name)) is not None:
+        return Relaxation(_parse(match[1], channels), match[2])
     if " " in name:
-        return Product(tuple(_parsed(x, channels) for x in name.split(" ")))
-    if (found := _FUNCTION.fullmatch(name)) is not None:
-        kind: FunctionName = "abs" if found[1] == "abs" else "sign" if found[1] == "sign" else "square"
-        return Function(kind, _parsed(found[2], channels))
-    if (found := _DERIVATIVE.fullmatch(name)) is not None:
-        return Derivative(ChannelName(found[2]), int(found[1] or 1))
+        return Product(tuple(_parse(x, channels) for x in name.split(" ")))
+    if (match := _FUNCTION.fullmatch(name)) is not None:
+        kind: FunctionName = "abs" if match[1] == "abs" else "sign" if match[1] == "sign" else "square"
+        return Function(kind, _parse(match[2], channels))
+    if (match := _DERIVATIVE.fullmatch(name)) is not None:
+        return Derivative(ChannelName(match[2]), int(match[1] or 1))
     return ChannelName(name)
 
 

@@ -173,7 +173,7 @@ def read(m: Loaded, flights: Sequence[Path], mapping: Path | None, *, gradient: 
 def working(text: str, command: str, flights: Sequence[Flight]) -> Iterator[None]:
     """Report on stderr what is being done, and how far it is."""
     progress.remark(text)
-    with progress.shown(command, sum(map(len, flights))):
+    with progress.show_progress(command, sum(map(len, flights))):
         yield
 
 

@@ -129,7 +129,7 @@ class OutputChannel(ModelledOutput):
                     along[..., first:last] = np.tensordot(b.root.T, own, 1)
             progress.step(float(few * (some.stop - some.start)))
         low_pass = find_demodulator(self.demodulator.name, self.demodulator.rate / few)
-        total = sum((low_pass.low_passed(x) ** 2 for x in along), np.zeros((2, count)))
+        total = sum((low_pass.low_pass(x) ** 2 for x in along), np.zeros((2, count)))
         centres = few * np.arange(count) + (few - 1) / 2  # the variance is linear between them
         return np.stack([np.interp(np.arange(len(g)), centres, x) for x in total])
 
@@ -155,7 +155,7 @@ class OutputChannel(ModelledOutput):
             bits[missing] |= Quality.GAP
         elif missing.any():
             weights = replace(d, taps=np.abs(d.taps) / np.sum(np.abs(d.taps)))
-            share = weights.low_passed(missing.astype(np.float64))
+            share = weights.low_pass(missing.astype(np.float64))
             bits[share > HOLES] |= Quality.GAP
             bits[(share > FELT) & (share <= HOLES) & (bits & NO_VALUE == 0)] |= Quality.BRIDGED
         for name, (low, high) in self.validity.items():

@@ -56,7 +56,7 @@ def demodulate_residual(e: Array, r: Record, k_ggi: float) -> Complex:
         cosine, sine = r.quadratures
         there = find_whole(np.ones_like(r.valid), r.valid, d)
         mixed = np.where(r.valid, e, 0.0) * ((4 * sine - 2j * cosine) / k_ggi)
-        found[..., there] = d.low_passed(mixed)[..., there]
+        found[..., there] = d.low_pass(mixed)[..., there]
     return found
 
 

@@ -246,7 +246,7 @@ class ModelledOutput:
 
     def demodulate(self, e: Array) -> Complex:
         """Inline + i cross (N,), Eo, of a residual (N,), V."""
-        return self.demodulator.low_passed(self.mixer * e)
+        return self.demodulator.low_pass(self.mixer * e)
 
     def respond_ideally(self, g: Complex) -> Array:
         """What an ideal instrument makes of inline + i cross (N,), Eo: V."""

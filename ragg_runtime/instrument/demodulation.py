@@ -62,12 +62,12 @@ class Demodulation:
 
     def entries(self, digits: str = "") -> dict[str, str | int]:
         """Keys and values for a file; numbers with so many ``digits`` (a format), or all."""
-        found: dict[str, str | int] = {"kind": self.kind}
+        entries: dict[str, str | int] = {"kind": self.kind}
         for key in _KEYS[1:]:
             value = getattr(self, key)
             if value is not None and value != 0.0:
-                found[key] = value if key == "order" else f"{value:{digits}} {_UNITS[key]}"
-        return found
+                entries[key] = value if key == "order" else f"{value:{digits}} {_UNITS[key]}"
+        return entries
 
     def toml(self) -> str:
         """The same on one line, rounded."""
@@ -103,11 +103,11 @@ def read_demodulation(table: object, where: str) -> Demodulation | None:
         raise UserError(
             "no such order", where=at(where, "order"), found=repr(order)[:60], expected=f"1 to {MOST_ORDER}"
         )
-    sizes = {key: _size(table[key], key, at(where, key)) for key in _UNITS if key in table}
+    sizes = {key: _read_size(table[key], key, at(where, key)) for key in _UNITS if key in table}
     return Demodulation(kind=kind, order=order, **sizes)
 
 
-def _size(raw: object, key: str, where: str) -> float:
+def _read_size(raw: object, key: str, where: str) -> float:
     value = float(read_si(read_quantity(raw, where, count=1), _UNITS[key], STANDARD_G0, where)[0])
     if key != "delay" and value <= 0.0:
         raise UserError(f"{key} must be positive", where=where, found=str(raw)[:60])

@@ -226,25 +226,25 @@ class Instrument:
         accelerometers: Mapping[str, ArrayLike],
         *,
         sigmas: Mapping[str, ArrayLike] | None = None,
-        **others: Any,
+        **fields: Any,
     ) -> Instrument:
         """An instrument from SI values: scalars hold for all accelerometers, missing ones are 0.
 
-        ``others`` are further fields, as they are.
+        ``fields`` are further fields, as they are.
         """
         check_keys(accelerometers, PARAMETER, "[accelerometers]")
         for p in PARAMETERS:
             if p.required and p.name not in accelerometers:
                 raise UserError(
                     f"{p.name} ({p.description}) is missing",
-                    where=at(others.get("path"), "[accelerometers]"),
+                    where=at(fields.get("path"), "[accelerometers]"),
                     expected=f'{p.name} = {{ value = ..., unit = "{p.display_unit}" }}',
                 )
         vectors = {name: _vector(accelerometers.get(name, 0.0), layout.size) for name in PARAMETER}
-        known = {name: _vector(v, layout.size) for name, v in (sigmas or {}).items()}
-        made = cls(layout, g0, MappingProxyType(vectors), sigmas=MappingProxyType(known), **others)
-        _check_physical(made)
-        return made
+        priors = {name: _vector(v, layout.size) for name, v in (sigmas or {}).items()}
+        instrument = cls(layout, g0, MappingProxyType(vectors), sigmas=MappingProxyType(priors), **fields)
+        _check_physical(instrument)
+        return instrument
 
     def replace(self, **changes: ArrayLike) -> Instrument:
         """The same instrument with some accelerometer parameters changed (SI, scalar or (n,))."""
@@ -254,9 +254,9 @@ class Instrument:
 
     def sigma(self, name: str) -> Vector:
         """How far a parameter of the accelerometers may be from its sheet, (n,) SI: by the sheet, or plausible."""
-        said = self.sigmas.get(name)
+        prior = self.sigmas.get(name)
         usual = PARAMETER[name].plausible_si(self.accelerometers[name], self.g0)
-        return (usual if said is None else said) * self.widths.get(name, 1.0)
+        return (usual if prior is None else prior) * self.widths.get(name, 1.0)
 
     def grade(self, name: str | None) -> float:
         """How many times wider the sheet's prior of a parameter is than for a navigation instrument; 1 if it gives none."""

@@ -83,9 +83,9 @@ class AccelerometerPosition:
     def cosine_sine(self) -> tuple[float, float]:
         """Of the angle; exact at quarters of a turn."""
         quarters = self.angle / QUARTER
-        whole = round(quarters)
-        if abs(quarters - whole) < 1e-12:
-            return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[whole % 4]
+        nearest = round(quarters)
+        if abs(quarters - nearest) < 1e-12:
+            return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[nearest % 4]
         return math.cos(self.angle), math.sin(self.angle)
 
     @property
@@ -113,7 +113,7 @@ class Output:
     def patterns(self) -> tuple[tuple[str, tuple[float, ...]], ...]:
         """Harmonic and weights (members,) with which it sees a parameter: sign times cos and sin of n = 0 ... 4 times the angle."""
         angles = np.array([math.atan2(s, c) for c, s in self.angles])
-        found: list[tuple[str, Array]] = []
+        patterns: list[tuple[str, Array]] = []
         for n in range(HIGHEST_HARMONIC + 1):
             for name, wave in (("cos", np.cos), ("sin", np.sin)):
                 w = np.array(self.signs) * wave(n * angles)
@@ -121,9 +121,9 @@ class Output:
                 if not np.any(w):
                     continue
                 w = w / w[int(np.argmax(np.abs(w)))]
-                if not any(np.allclose(w, v, atol=1e-9) for _, v in found):
-                    found.append((f"{name} {n}" if n else "const", w))
-        return tuple((name, tuple(float(x) for x in w)) for name, w in found)
+                if not any(np.allclose(w, v, atol=1e-9) for _, v in patterns):
+                    patterns.append((f"{name} {n}" if n else "const", w))
+        return tuple((name, tuple(float(x) for x in w)) for name, w in patterns)
 
     def combined(self, v: Array) -> Array:
         """(N,): its members' voltages (members, N) with their signs; equal signs are added first (Eq. 15)."""
@@ -141,14 +141,14 @@ class Layout:
 
     @cached_property
     def outputs(self) -> tuple[Output, ...]:
-        found = []
+        outputs = []
         for k, name in enumerate(self.output_names):
             members = tuple(j for j, p in enumerate(self.places) if p.output == k)
-            own = [self.places[j] for j in members]
-            signs, carriers = tuple(p.sign for p in own), tuple(p.carrier for p in own)
-            radii, angles = tuple(p.radius for p in own), tuple(p.cosine_sine for p in own)
-            found.append(Output(name, own[0].disc, members, signs, carriers, radii, angles))
-        return tuple(found)
+            places = [self.places[j] for j in members]
+            signs, carriers = tuple(p.sign for p in places), tuple(p.carrier for p in places)
+            radii, angles = tuple(p.radius for p in places), tuple(p.cosine_sine for p in places)
+            outputs.append(Output(name, places[0].disc, members, signs, carriers, radii, angles))
+        return tuple(outputs)
 
     @property
     def size(self) -> int:
@@ -182,8 +182,8 @@ class Layout:
 
     def voltages(self, o: Output, columns: Container[str]) -> tuple[str, ...] | None:
         """The columns of an output's voltages among those that a flight has; ``None`` if not all are there."""
-        found = [next((c for c in self.voltage_columns(j) if c in columns), None) for j in o.members]
-        return None if None in found else tuple(c for c in found if c is not None)
+        names = [next((c for c in self.voltage_columns(j) if c in columns), None) for j in o.members]
+        return None if None in names else tuple(c for c in names if c is not None)
 
     def formula(self, o: Output, voltages: Sequence[str]) -> str:
         """An output in words: V_1 + V_2 - V_3 - V_4."""
@@ -237,8 +237,8 @@ def gain(o: Output, k1: Array, R: Array) -> complex:
 
     ``k1`` = k_VI K1 and radii ``R``, (n,), of all accelerometers of the layout.
     """
-    w, seen = k1[list(o.members)] * R[list(o.members)], np.multiply(o.signs, o.carriers)
-    return complex(np.sum(w * seen.real), np.sum(w * seen.imag))
+    w, weights = k1[list(o.members)] * R[list(o.members)], np.multiply(o.signs, o.carriers)
+    return complex(np.sum(w * weights.real), np.sum(w * weights.imag))
 
 
 def sees(o: Output, k1: Array, R: Array) -> bool:
@@ -283,18 +283,18 @@ def least_rotation(start: Vector3, end: Vector3, spare: Vector3) -> Array:
 def constants(layout: Layout) -> Mapping[str, tuple[float, ...]]:
     """Name -> one number for each accelerometer; heights, turns and axes only where the layout has some."""
     places = layout.places
-    found: dict[str, tuple[float, ...]] = {
+    values: dict[str, tuple[float, ...]] = {
         "cos_j": tuple(p.cosine_sine[0] for p in places),
         "sin_j": tuple(p.cosine_sine[1] for p in places),
     }
     if any(p.height != 0.0 for p in places):
-        found["height_j"] = tuple(float(p.height) for p in places)
+        values["height_j"] = tuple(float(p.height) for p in places)
     if any(p.direction != TANGENTIAL for p in places):
-        found |= _entries("turn", [least_rotation(TANGENTIAL, p.direction, AXIAL) for p in places])
+        values |= _entries("turn", [least_rotation(TANGENTIAL, p.direction, AXIAL) for p in places])
     if not all(d.level for d in layout.discs):
         discs = [layout.discs[p.disc] for p in places]
-        found |= _entries("axes", [np.column_stack([*d.across, d.axis]) for d in discs])
-    return found
+        values |= _entries("axes", [np.column_stack([*d.across, d.axis]) for d in discs])
+    return values
 
 
 PARTS = 1_000_000

@@ -68,9 +68,9 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         )
     check_keys(table, ("disc", "accelerometers", "effects", "model", "g0", "demodulator"), path)
     form, angle_origin = read_form(table.get("model"), path)
-    layout, g0 = _discs(table, path)
-    accelerometers, sigmas, fixed = _accelerometers(
-        _table(table, "accelerometers", path), g0, path, layout.size
+    layout, g0 = _read_discs(table, path)
+    accelerometers, sigmas, fixed = _read_accelerometers(
+        _find_table(table, "accelerometers", path), g0, path, layout.size
     )
     return Instrument.build(
         layout,
@@ -78,7 +78,7 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         accelerometers,
         sigmas=sigmas,
         fixed=fixed,
-        effects=_effects(table.get("effects", []), units(g0), path, layout.size),
+        effects=_read_effects(table.get("effects", []), units(g0), path, layout.size),
         path=path,
         form=form,
         angle_origin=angle_origin,
@@ -86,40 +86,40 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
     )
 
 
-def _discs(table: Mapping[str, Any], path: Path | None) -> tuple[Layout, float]:
+def _read_discs(table: Mapping[str, Any], path: Path | None) -> tuple[Layout, float]:
     """The layout of [disc] (the paper's) or of [[disc]] tables, and g0."""
     if not isinstance(table.get("disc"), list):
         if "g0" in table:
             raise UserError("g0 belongs in the table [disc]", where=at(path, "g0"))
-        disc, where = _table(table, "disc", path), at(path, "[disc]")
+        disc, where = _find_table(table, "disc", path), at(path, "[disc]")
         check_keys(disc, DISC_UNITS, where)
-        radius, spin_frequency, g0 = (_number(disc, name, unit, where) for name, unit in DISC_UNITS.items())
+        radius, spin_frequency, g0 = (_read_number(disc, n, unit, where) for n, unit in DISC_UNITS.items())
         return paper(radius, spin_frequency), g0
     tables = [(at(path, "[[disc]]"), table)]
     tables += [(at(path, f"[[disc]] {n}"), t) for n, t in enumerate(table["disc"], 1)]
-    found = {_number(t, "g0", "m/s^2", where) for where, t in tables if isinstance(t, dict) and "g0" in t}
-    if len(found) > 1:
-        raise UserError("g0 is given twice", where=path, found=sorted(found), expected="one value")
-    return read_layout(table["disc"], path), found.pop() if found else STANDARD_G0
+    g0s = {_read_number(t, "g0", "m/s^2", where) for where, t in tables if isinstance(t, dict) and "g0" in t}
+    if len(g0s) > 1:
+        raise UserError("g0 is given twice", where=path, found=sorted(g0s), expected="one value")
+    return read_layout(table["disc"], path), g0s.pop() if g0s else STANDARD_G0
 
 
-def _table(table: Mapping[str, Any], name: str, path: Path | None) -> Mapping[str, Any]:
+def _find_table(table: Mapping[str, Any], name: str, path: Path | None) -> Mapping[str, Any]:
     if name not in table:
         raise UserError(f"the table [{name}] is missing", where=path)
     return check_table(table[name], name, path, f"[{name}]")
 
 
-def _accelerometers(
+def _read_accelerometers(
     table: Mapping[str, Any], g0: float, path: Path | None, count: int
 ) -> tuple[dict[str, Vector], dict[str, Vector], frozenset[str]]:
     """Values, their priors where the sheet gives any, in SI; and which are not fitted."""
     check_keys(table, PARAMETER, at(path, "[accelerometers]"))
-    found, sigmas, fixed = {}, {}, set()
+    values, sigmas, fixed = {}, {}, set()
     for name, raw in table.items():
         place = at(path, f"[accelerometers] {name}")
         si_unit = PARAMETER[name].si_unit
         quantity = read_quantity(_without(raw, "sigma", "fixed"), place, count=count)
-        found[name] = read_si(quantity, si_unit, g0, place)
+        values[name] = read_si(quantity, si_unit, g0, place)
         if _is_fixed(raw, place):
             fixed.add(name)
         if isinstance(raw, dict) and "sigma" in raw:
@@ -129,7 +129,7 @@ def _accelerometers(
             if np.any(sigmas[name] <= 0):
                 expected = f"one or {count} above 0, in {quantity.unit}; omit it if unknown"
                 raise UserError("sigma must be positive", where=where, found=raw["sigma"], expected=expected)
-    return found, sigmas, frozenset(fixed)
+    return values, sigmas, frozenset(fixed)
 
 
 def _is_fixed(raw: object, where: str) -> bool:
@@ -141,21 +141,21 @@ def _without(raw: object, *keys: str) -> object:
     return {k: v for k, v in raw.items() if k not in keys} if isinstance(raw, dict) else raw
 
 
-def _effects(entries: object, known: Units, path: Path | None, count: int) -> tuple[EffectSetting, ...]:
+def _read_effects(entries: object, u: Units, path: Path | None, count: int) -> tuple[EffectSetting, ...]:
     where = at(path, "effects")
     if not isinstance(entries, list):
         raise UserError("effects must be a list", where=where, found=repr(entries), expected='["lag"]')
-    found = [_effect(e, f"{where}, entry {n}", known, count) for n, e in enumerate(entries, 1)]
-    if twice := _find_twice([e.id for e in found]):
+    settings = [_read_effect(e, f"{where}, entry {n}", u, count) for n, e in enumerate(entries, 1)]
+    if twice := _find_twice([e.id for e in settings]):
         raise UserError(f"the effect {twice!r} is listed twice", where=where, remedy="remove one entry")
-    return tuple(found)
+    return tuple(settings)
 
 
 def _find_twice(names: Sequence[str]) -> str | None:
     return next((n for n in sorted(names) if names.count(n) > 1), None)
 
 
-def _effect(entry: object, where: str, known: Units, count: int) -> EffectSetting:
+def _read_effect(entry: object, where: str, u: Units, count: int) -> EffectSetting:
     """An entry of ``effects``: an id, or a table with values of parameters, or one with the expression and its parameters."""
     entry = {"id": entry} if isinstance(entry, str) else entry
     if not isinstance(entry, dict) or not isinstance(entry.get("id"), str):
@@ -172,7 +172,7 @@ def _effect(entry: object, where: str, known: Units, count: int) -> EffectSettin
         read_name(name, at(where, "the name of a parameter"), "tau")
     expression = None
     if any(key in entry for key in _EXPRESSION):
-        expression = _expression(entry, values, where, known)
+        expression = _read_expression(entry, values, where, u)
         values = {
             n: {k: q[k] for k in ("value", "unit")} for n, q in expression["params"].items() if "value" in q
         }
@@ -182,7 +182,7 @@ def _effect(entry: object, where: str, known: Units, count: int) -> EffectSettin
         for name, raw in values.items()
     }
     for name, q in quantities.items():
-        known.parse(q.unit, f"{where}: {name}")
+        u.parse(q.unit, f"{where}: {name}")
     return EffectSetting(effect_id, MappingProxyType(quantities), expression, frozenset(fixed))
 
 
@@ -190,8 +190,8 @@ _EXPRESSION = ("stage", "add")
 """Keys of an effect in one line, beside its parameters."""
 
 
-def _expression(
-    entry: Mapping[str, Any], parameters: Mapping[str, Any], where: str, known: Units
+def _read_expression(
+    entry: Mapping[str, Any], parameters: Mapping[str, Any], where: str, u: Units
 ) -> Mapping[str, Any]:
     """``stage``, ``add`` and ``params`` (name -> ``unit``, and ``value``, ``shared``, ``plausible`` where they are given)."""
     example = 'stage = "transducer", add = "K_x * f_i**3", K_x = { value = 0, unit = "ug/g^3" }'
@@ -209,7 +209,7 @@ def _expression(
                 "the parameter needs a unit", where=f"{where}: {name}", found=repr(raw), expected=example
             )
         check_keys(raw, ("value", "unit", "shared", "plausible"), f"{where}: {name}")
-        known.parse(raw["unit"], f"{where}: {name}")
+        u.parse(raw["unit"], f"{where}: {name}")
     return MappingProxyType({**{k: entry[k] for k in _EXPRESSION}, "params": dict(parameters)})
 
 
@@ -233,52 +233,54 @@ def read_layout(tables: Sequence[Any], path: Path | None) -> Layout:
         check_table(table, "disc", path, "[[disc]]")
         where = at(path, f"[[disc]] {table['name'] if is_name(table.get('name')) else number}")
         check_keys(table, DISC_KEYS, where)
-        discs.append(_a_disc(table, where, single=len(tables) == 1))
+        discs.append(_read_disc(table, where, single=len(tables) == 1))
         entries = table.get("accelerometer", [])
         if not isinstance(entries, list):
             raise UserError("accelerometer must be a list of tables", where=where, expected=_EXAMPLE)
         for k, entry in enumerate(entries, 1):
-            own = at(where, f"accelerometer {k}")
-            check_keys(check_table(entry, "an accelerometer", own, _EXAMPLE), PLACE_KEYS, own)
+            place = at(where, f"accelerometer {k}")
+            check_keys(check_table(entry, "an accelerometer", place, _EXAMPLE), PLACE_KEYS, place)
             default = {n: table[n] for n in ("radius",) if n in table}
-            places.append(_place(default | entry, own, number - 1, outputs))
+            places.append(_read_position(default | entry, place, number - 1, outputs))
     layout = Layout(discs=tuple(discs), places=tuple(places), output_names=tuple(outputs))
     _check(layout, path)
     return layout
 
 
-def _a_disc(table: Mapping[str, Any], where: str, *, single: bool) -> Disc:
-    name = _text(table, "name", where, "A" if single else None)
-    axis = _direction(table, "axis", where, Z_AXIS)
+def _read_disc(table: Mapping[str, Any], where: str, *, single: bool) -> Disc:
+    name = _read_name(table, "name", where, "A" if single else None)
+    axis = _read_direction(table, "axis", where, Z_AXIS)
     zero = least_rotation(Z_AXIS, axis, X_AXIS)[:, 0].tolist()
     if "zero" in table:
-        zero = _direction(table, "zero", where, X_AXIS)
+        zero = _read_direction(table, "zero", where, X_AXIS)
         if abs(np.dot(axis, zero)) > 1 - 1e-9:
             raise UserError("zero must not lie along the axis", where=where, found=list(zero))
     return Disc(
         name=name,
-        spin_frequency=_number(table, "spin_frequency", "Hz", where),
+        spin_frequency=_read_number(table, "spin_frequency", "Hz", where),
         axis=axis,
         zero=perpendicular(zero, axis),
         angle_column="spin_angle" if single else f"spin_angle_{name}",
     )
 
 
-def _place(entry: Mapping[str, Any], where: str, disc: int, outputs: dict[str, int]) -> AccelerometerPosition:
-    output = _text(entry, "output", where)
-    radius = _number(entry, "radius", "m", where)
+def _read_position(
+    entry: Mapping[str, Any], where: str, disc: int, outputs: dict[str, int]
+) -> AccelerometerPosition:
+    output = _read_name(entry, "output", where)
+    radius = _read_number(entry, "radius", "m", where)
     if radius < 0.0:
         raise UserError("radius is out of range", where=where, found=f"{radius} m", expected="not negative")
     if type(entry.get("sign")) is not int or abs(entry["sign"]) != 1:
         found = repr(entry.get("sign"))
         raise UserError("sign must be 1 or -1", where=where, found=found, expected="sign = 1")
     return AccelerometerPosition(
-        name=_text(entry, "name", where),
+        name=_read_name(entry, "name", where),
         disc=disc,
-        angle=_number(entry, "angle", "rad", where),
+        angle=_read_number(entry, "angle", "rad", where),
         radius=radius,
-        height=_number(entry, "height", "m", where) if "height" in entry else 0.0,
-        direction=_direction(entry, "direction", where, TANGENTIAL),
+        height=_read_number(entry, "height", "m", where) if "height" in entry else 0.0,
+        direction=_read_direction(entry, "direction", where, TANGENTIAL),
         sign=entry["sign"],
         output=outputs.setdefault(output, len(outputs)),
     )
@@ -302,9 +304,9 @@ def _check(layout: Layout, path: Path | None) -> None:
                 expected="accelerometers of one disc",
                 remedy="give each disc an output of its own, such as G_out_A and G_out_B",
             )
-    taken = {c for j in range(layout.size) for c in layout.voltage_columns(j)}
+    voltages = {c for j in range(layout.size) for c in layout.voltage_columns(j)}
     for name in layout.output_names:
-        if name in taken:
+        if name in voltages:
             raise UserError(f"the output {name} has the name of a voltage", where=where)
         if _OTHERS.fullmatch(name):
             raise UserError(
@@ -312,14 +314,14 @@ def _check(layout: Layout, path: Path | None) -> None:
             )
 
 
-def _text(table: Mapping[str, Any], key: str, where: str, default: str | None = None) -> str:
+def _read_name(table: Mapping[str, Any], key: str, where: str, default: str | None = None) -> str:
     example = {"name": '"A1"', "output": '"G_out"'}[key]
     if key not in table and default is None:
         raise UserError(f"{key} is missing", where=where, expected=f"{key} = {example}")
     return read_name(table.get(key, default), at(where, key), example)
 
 
-def _number(table: Mapping[str, Any], key: str, si_unit: str, where: str) -> float:
+def _read_number(table: Mapping[str, Any], key: str, si_unit: str, where: str) -> float:
     """One number in SI, whose unit is not made with g: g0 defines g, and nothing else here depends on it."""
     place = f"{where} {key}"
     if key not in table:
@@ -335,7 +337,7 @@ def _number(table: Mapping[str, Any], key: str, si_unit: str, where: str) -> flo
     return float(read_si(q, si_unit, STANDARD_G0, place)[0])
 
 
-def _direction(table: Mapping[str, Any], key: str, where: str, default: Vector3) -> Vector3:
+def _read_direction(table: Mapping[str, Any], key: str, where: str, default: Vector3) -> Vector3:
     if key not in table:
         return default
     raw = table[key]
@@ -408,11 +410,11 @@ def remove_effect(text: str, effect_id: str) -> str:
     entries: Any = document.get("effects", [])
     place = _find(entries, effect_id)
     if place is None:
-        known = [_id(e) for e in entries]
+        ids = [_id(e) for e in entries]
         raise UserError(
             f"the effect {effect_id!r} is not in the model",
-            found="effects " + ", ".join(known) if known else "no effects",
-            remedy=did_you_mean(effect_id, known),
+            found="effects " + ", ".join(ids) if ids else "no effects",
+            remedy=did_you_mean(effect_id, ids),
         )
     del entries[place]
     return tomlkit.dumps(document)
@@ -464,10 +466,10 @@ def _plain(value: float | tuple[float, ...]) -> int | float | list[Any]:
 def _put(table: Any, name: str, quantity: RawQuantity, further: Mapping[str, Any] = _NOTHING) -> None:
     """Set a quantity; what is said of the old one besides stays, its sigma where the unit does."""
     old = table.get(name)
-    kept = dict(old) if isinstance(old, dict) else {}
-    if kept.get("unit") != quantity.unit:
-        kept.pop("sigma", None)
-    table[name] = _inline(quantity, {**kept, **further})
+    entry = dict(old) if isinstance(old, dict) else {}
+    if entry.get("unit") != quantity.unit:
+        entry.pop("sigma", None)
+    table[name] = _inline(quantity, {**entry, **further})
     if old is not None:
         table[name].trivia.comment, table[name].trivia.comment_ws = old.trivia.comment, old.trivia.comment_ws
 

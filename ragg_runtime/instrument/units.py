@@ -128,18 +128,18 @@ class Units:
     def _prepare(self, unit: str, si_unit: str, where: str | None) -> tuple[Any, Any, bool]:
         """Both units, of one dimension, and whether angles of the first are turns of the other; else UserError."""
         unit = self.find_meant(unit, si_unit) or unit
-        given, si = self.parse(unit, where), self.parse(si_unit)
-        if given.dimensionality != si.dimensionality:
+        source, target = self.parse(unit, where), self.parse(si_unit)
+        if source.dimensionality != target.dimensionality:
             raise UserError(
                 "the unit has the wrong dimension",
                 where=where,
-                found=f"{unit!r} ({_dimension(given)})",
-                expected=f"a unit of {_dimension(si)}, which {si_unit!r} has",
+                found=f"{unit!r} ({_dimension(source)})",
+                expected=f"a unit of {_dimension(target)}, which {si_unit!r} has",
                 remedy=f"g is the specific force {self.g0:g} m/s^2 here, not the gram"
-                if "[mass]" in str(si.dimensionality) + str(given.dimensionality)
+                if "[mass]" in str(target.dimensionality) + str(source.dimensionality)
                 else None,
             )
-        if self._counts(given, _CYCLES) and self._counts(si, _ANGLES):
+        if self._counts(source, _CYCLES) and self._counts(target, _ANGLES):
             raise UserError(
                 "a frequency is given where an angular rate is needed",
                 where=where,
@@ -147,7 +147,7 @@ class Units:
                 expected=si_unit,
                 remedy="write rad/s, deg/s, deg/h or rpm",
             )
-        return given, si, self._counts(si, _CYCLES) and self._counts(given, _ANGLES)
+        return source, target, self._counts(target, _CYCLES) and self._counts(source, _ANGLES)
 
     def base_unit(self, unit: str, where: str | None = None) -> str:
         """The SI base unit for ``unit``, as text that :meth:`parse` reads (``K``, ``m/s**2``)."""
@@ -164,10 +164,10 @@ class Units:
 
     def find_meant(self, unit: str, si_unit: str) -> str | None:
         """What alone has the dimension: ``g`` for G of an acceleration, ``degC`` for C of a temperature, ``m/s2`` for M/S2."""
-        wanted = self.parse(si_unit).dimensionality
+        dimension = self.parse(si_unit).dimensionality
         for reading in (unit, _LETTERS.get(unit.strip(), unit), unit.casefold()):
             with contextlib.suppress(UserError):
-                if self.parse(reading).dimensionality == wanted:
+                if self.parse(reading).dimensionality == dimension:
                     return reading
         return None
 
@@ -192,10 +192,10 @@ def read_quantity(raw: object, where: str, *, count: int) -> RawQuantity:
     value: object = None
     unit: object = None
     if isinstance(raw, str):
-        found = _AMOUNT.fullmatch(_COMMA.sub(lambda m: m[0].replace(",", "."), raw))
-        if found is not None:
+        match = _AMOUNT.fullmatch(_COMMA.sub(lambda m: m[0].replace(",", "."), raw))
+        if match is not None:
             with contextlib.suppress(ValueError):
-                value, unit = float(found[1]), found[2]
+                value, unit = float(match[1]), match[2]
     elif isinstance(raw, Mapping):
         value, unit = (raw.get("value"), raw.get("unit")) if raw.keys() <= {"value", "unit"} else (None, None)
     elif isinstance(raw, int | float) and not isinstance(raw, bool):
@@ -213,7 +213,7 @@ def read_quantity(raw: object, where: str, *, count: int) -> RawQuantity:
             remedy='write the unit; a pure number has the unit "1"; none is guessed',
         )
     if not isinstance(value, list | tuple):
-        return RawQuantity(_number(value, where), unit.strip())
+        return RawQuantity(_read_number(value, where), unit.strip())
     if len(value) != count:
         raise UserError(
             "wrong number of values",
@@ -221,22 +221,22 @@ def read_quantity(raw: object, where: str, *, count: int) -> RawQuantity:
             found=f"{len(value)} values",
             expected=f"one number, or {count} ({_count_up(count, 'A')})" if count > 1 else "one number",
         )
-    return RawQuantity(tuple(_number(v, where) for v in value), unit.strip())
+    return RawQuantity(tuple(_read_number(v, where) for v in value), unit.strip())
 
 
-def _number(value: object, where: str | None) -> float:
+def _read_number(value: object, where: str | None) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise UserError("not a number", where=where, found=repr(value), expected="a number")
     if not abs(value) <= sys.float_info.max:
-        shown = value if isinstance(value, float) else "a whole number too large for a float"
-        raise UserError("the value is not finite", where=where, found=shown, expected="a finite number")
+        text = value if isinstance(value, float) else "a whole number too large for a float"
+        raise UserError("the value is not finite", where=where, found=text, expected="a finite number")
     return float(value)
 
 
 def read_si(quantity: RawQuantity, si_unit: str, g0: float, where: str) -> NDArray[np.float64]:
     """The numbers of a quantity, (1,) or (n,), in ``si_unit``; UserError if one is not finite there."""
-    given = np.atleast_1d(np.asarray(quantity.value, dtype=np.float64))
-    value = np.asarray(units(g0).to_si(given, quantity.unit, si_unit, where))
+    numbers = np.atleast_1d(np.asarray(quantity.value, dtype=np.float64))
+    value = np.asarray(units(g0).to_si(numbers, quantity.unit, si_unit, where))
     if not np.all(np.isfinite(value)):
         raise UserError("the value is not finite in SI", where=where, found=value, expected="finite numbers")
     return value
@@ -244,8 +244,8 @@ def read_si(quantity: RawQuantity, si_unit: str, g0: float, where: str) -> NDArr
 
 def _count_up(count: int, before: str = "") -> str:
     """1, 2, 3 or 1 ... 8, each with what stands ``before`` it."""
-    each = [f"{before}{k + 1}" for k in range(count)]
-    return ", ".join(each) if count <= 4 else f"{each[0]} ... {each[-1]}"
+    labels = [f"{before}{k + 1}" for k in range(count)]
+    return ", ".join(labels) if count <= 4 else f"{labels[0]} ... {labels[-1]}"
 
 
 def _dimension(unit: Any) -> str:

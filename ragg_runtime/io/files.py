@@ -20,7 +20,7 @@ import pyarrow.csv
 import pyarrow.parquet as pq
 
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.files import file_digest, opened, replacing
+from ragg_runtime.base.files import file_digest, open_regular, replacing
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import units
@@ -137,7 +137,7 @@ def read_tables(source: Any) -> list[DataTable]:
 def _read_file(path: Path) -> list[DataTable]:
     kind = find_format(path)
     try:
-        with opened(path) as stream:
+        with open_regular(path) as stream:
             is_empty = not stream.read(1)
     except OSError as error:
         found = "it does not exist" if isinstance(error, FileNotFoundError) else error.strerror

@@ -54,7 +54,7 @@ class BuildError(Exception):
     """The C cannot be compiled or loaded; the message has the reason."""
 
 
-def build(sources: Mapping[str, str], folder: Path | None = None, *, quick: bool = False) -> Path:
+def compile_library(sources: Mapping[str, str], folder: Path | None = None, *, quick: bool = False) -> Path:
     """Compile C files (name -> text) to one library in ``folder`` (by default the user's cache), unless it is there.
 
     Raises
@@ -62,29 +62,26 @@ def build(sources: Mapping[str, str], folder: Path | None = None, *, quick: bool
     BuildError
         If there is no compiler, or if it fails.
     """
-    command, place = (
-        [*find_compiler(), "-O1" if quick else "-O3", *OPTIONS],
-        find_private_folder("native", folder),
-    )
+    command = [*find_compiler(), "-O1" if quick else "-O3", *OPTIONS]
+    place = find_private_folder("native", folder)
     text = [f"{name}\0{sources[name]}" for name in sorted(sources)]
     identity = "\0".join((*text, *command, repr(FOR_PROCESSOR), describe_processor()))
     library = place / f"{hashlib.sha256(identity.encode()).hexdigest()[:32]}.so"
     if library.exists():
         return library
     command += ["-o", "library.so", *(n for n in sorted(sources) if n.endswith(".c")), "-lm"]
-    said = ""
+    message = ""
     try:
         with tempfile.TemporaryDirectory(prefix=".", dir=place) as work:
             for name, content in sources.items():
                 (Path(work) / name).write_text(content, "utf-8")
             for options in FOR_PROCESSOR:
-                with (Path(work) / "said").open(
-                    "w+", errors="replace"
-                ) as told:  # a child that hangs would keep a pipe open
-                    io: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": told, "stderr": told}
+                # a file, as a child that hangs would keep a pipe open
+                with (Path(work) / "log").open("w+", errors="replace") as log:
+                    io: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": log, "stderr": log}
                     done = subprocess.run([*command, *options], cwd=work, timeout=PATIENCE, check=False, **io)
-                    told.seek(0)
-                    said = said or next((line for line in told if "error" in line), "")
+                    log.seek(0)
+                    message = message or next((line for line in log if "error" in line), "")
                 if done.returncode == 0:
                     os.replace(Path(work) / "library.so", library)
                     return library
@@ -92,7 +89,7 @@ def build(sources: Mapping[str, str], folder: Path | None = None, *, quick: bool
         raise BuildError(f"the C compiler {command[0]} does not answer within {PATIENCE:g} s") from None
     except OSError as refused:
         raise BuildError(f"{command[0]} or the cache {place} cannot be used: {refused.strerror}") from None
-    raise BuildError(f"the C compiler {command[0]} fails: {said.strip() or 'without a message'}")
+    raise BuildError(f"the C compiler {command[0]} fails: {message.strip() or 'without a message'}")
 
 
 def is_off() -> bool:
@@ -124,8 +121,8 @@ def describe_processor() -> str:
         lines = Path("/proc/cpuinfo").read_text("utf-8").splitlines()
     except OSError:
         lines = []
-    own = (x for x in lines if x.startswith(("model name", "flags", "Features", "CPU part")))
-    return "\n".join((platform.system(), platform.machine(), platform.processor(), *dict.fromkeys(own)))
+    features = (x for x in lines if x.startswith(("model name", "flags", "Features", "CPU part")))
+    return "\n".join((platform.system(), platform.machine(), platform.processor(), *dict.fromkeys(features)))
 
 
 def load(file: Path) -> ctypes.CDLL:
@@ -204,7 +201,7 @@ class Chain:
         if not self.sources or is_off():
             return None
         try:
-            return load(build(self.sources, quick=self.quick))
+            return load(compile_library(self.sources, quick=self.quick))
         except BuildError as error:
             _say_once(str(error))
             return None
@@ -214,15 +211,15 @@ class Chain:
     ) -> Array:
         """G_out, or another of the layout's outputs, (N,), V."""
         t, x, p, angle = self._case(t, inputs, p, angle)
-        own = () if self.layout.like_paper else (which,)
+        index = () if self.layout.like_paper else (which,)
         G = np.empty(len(t))
         if self.library is not None:
             name = "folded" if hasattr(self.library, "ragg_folded_output") else self.name
-            self._call(f"{name}_output", own, (t, x, p, angle), G)
+            self._call(f"{name}_output", index, (t, x, p, angle), G)
         elif self.folded is not None:
-            for some in split_range(len(t), BLOCK):
-                phi = None if angle is None else angle[some]
-                G[some] = self.folded.output(t[some], np.stack([v[some] for v in x]), p, phi, *own)
+            for rows in split_range(len(t), BLOCK):
+                phi = None if angle is None else angle[rows]
+                G[rows] = self.folded.output(t[rows], np.stack([v[rows] for v in x]), p, phi, *index)
         else:
             o = self.layout.outputs[which]
             G[:] = o.combined(self.voltages(t, x, p, angle, o.members))
@@ -238,18 +235,18 @@ class Chain:
     ) -> Array:
         """V_1 ... V_4, or those of some accelerometers (counted from 0), (members, N), V."""
         case = self._case(t, inputs, p, angle)
-        wanted = tuple(range(self.layout.size) if members is None else members)
+        indices = tuple(range(self.layout.size) if members is None else members)
         if self.library is not None and self.layout.like_paper:
             four = np.empty((4, len(case[0])))
             self._call(f"{self.name}_voltages", (), case, four)
-            return four if wanted == (0, 1, 2, 3) else four[list(wanted)]
-        V = np.empty((len(wanted), len(case[0])))
-        for v, j in zip(V, wanted, strict=True):
+            return four if indices == (0, 1, 2, 3) else four[list(indices)]
+        V = np.empty((len(indices), len(case[0])))
+        for v, j in zip(V, indices, strict=True):
             if self.library is not None:
                 self._call(f"{self.name}_voltage", (j,), case, v)
             else:
-                for some, block in self._blocks(j, case):
-                    v[some] = self.module.accelerometer(j, *block)
+                for rows, block in self._blocks(j, case):
+                    v[rows] = self.module.accelerometer(j, *block)
         return V
 
     def derivatives(
@@ -261,8 +258,8 @@ class Chain:
         if self.library is not None:
             self._call(f"{self.name}_derivatives", (j,), case, D)
         else:
-            for some, block in self._blocks(j, case):
-                D[:, some] = self.module.derivatives(j, *block)
+            for rows, block in self._blocks(j, case):
+                D[:, rows] = self.module.derivatives(j, *block)
         return D
 
     def _call(self, function: str, leading: tuple[int, ...], case: _Case, result: Array) -> None:
@@ -276,9 +273,9 @@ class Chain:
         """Samples, and what the generated NumPy functions take of them for accelerometer j."""
         t, x, p, angle = case
         q = self.module.values_of(j, p)
-        for some in split_range(len(t), BLOCK):
-            phi = disc_angle(t[some], float(q[1])) if angle is None else angle[some]
-            yield some, (t[some], np.cos(phi), np.sin(phi), np.stack([v[some] for v in x]), q)
+        for rows in split_range(len(t), BLOCK):
+            phi = disc_angle(t[rows], float(q[1])) if angle is None else angle[rows]
+            yield rows, (t[rows], np.cos(phi), np.sin(phi), np.stack([v[rows] for v in x]), q)
 
     def _case(self, t: ArrayLike, inputs: Inputs, p: ArrayLike, angle: ArrayLike | None) -> _Case:
         """The arguments as the generated code takes them: contiguous float64 is used where it lies, the rest converted."""
@@ -299,5 +296,5 @@ def _at(x: Array | None) -> ctypes.c_void_p:
 
 
 @cache
-def _say_once(why: str) -> None:
-    remark(f"the model is not compiled, the slower NumPy code is used: {why}")
+def _say_once(reason: str) -> None:
+    remark(f"the model is not compiled, the slower NumPy code is used: {reason}")

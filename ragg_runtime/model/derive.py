@@ -44,9 +44,9 @@ def list_known(instrument: Instrument) -> Mapping[str, SymbolicEffect]:
     from derive.effects import catalogue
 
     with _SYMPY:
-        found = [*catalogue(), *load_own_effects()]
-        found += [_expression(s, instrument.path) for s in instrument.effects if s.expression is not None]
-    ids = [e.id for e in found]
+        definitions = [*catalogue(), *load_own_effects()]
+        definitions += [_expression(s, instrument.path) for s in instrument.effects if s.expression]
+    ids = [e.id for e in definitions]
     if twice := next((i for i in reversed(ids) if ids.count(i) > 1), None):
         raise UserError(
             "the id of your effect is taken",
@@ -54,7 +54,7 @@ def list_known(instrument: Instrument) -> Mapping[str, SymbolicEffect]:
             found=repr(twice),
             remedy="choose another id",
         )
-    return {e.id: e for e in found}
+    return {e.id: e for e in definitions}
 
 
 def _expression(s: EffectSetting, path: Path | None) -> SymbolicEffect:
@@ -83,9 +83,9 @@ def find_effect(effects: Mapping[str, E], identifier: str, where: str | None = N
 
 def find_offered(instrument: Instrument, *ids: str) -> list[SymbolicEffect]:
     """The effects of these ids; UserError if there is none, or if the form of the instrument's model holds it already."""
-    every, form = list_known(instrument), _make_symbolic_form(instrument.form, instrument.layout)
-    found = [find_effect(every, i, at(instrument.path, "effects")) for i in ids]
-    for e in found:
+    catalogue, form = list_known(instrument), _make_symbolic_form(instrument.form, instrument.layout)
+    definitions = [find_effect(catalogue, i, at(instrument.path, "effects")) for i in ids]
+    for e in definitions:
         if e.moot(form.order, form.kinematics):
             raise UserError(
                 f"the effect {e.id} is already in the model",
@@ -93,7 +93,7 @@ def find_offered(instrument: Instrument, *ids: str) -> list[SymbolicEffect]:
                 found=f"[model] with {instrument.form.words()}",
                 remedy="leave the effect out, or change [model]",
             )
-    return found
+    return definitions
 
 
 def load_model(instrument: Instrument, *, candidates: bool = True) -> Model:
@@ -124,18 +124,18 @@ def _derive_files(
     instrument: Instrument, ids: Sequence[str], *, candidates: bool = True
 ) -> Mapping[str, str]:
     """The files of an instrument's model, with effects of these ids, derived or kept."""
-    asked = request(instrument, ids, candidates=candidates)
-    files = kept(asked)
+    digest = identify(instrument, ids, candidates=candidates)
+    files = load_kept(digest)
     if files is None:
-        others = tuple(list_known(instrument).values()) if candidates else ()
-        chosen = tuple(find_offered(instrument, *ids))
-        _, files = derived(chosen, others, instrument.form, instrument.layout)
-        keep(asked, files)
+        catalogue = tuple(list_known(instrument).values()) if candidates else ()
+        definitions = tuple(find_offered(instrument, *ids))
+        _, files = derive_model(definitions, catalogue, instrument.form, instrument.layout)
+        keep_files(digest, files)
     return files
 
 
 @cache
-def derived(
+def derive_model(
     effects: tuple[SymbolicEffect, ...],
     candidates: tuple[SymbolicEffect, ...],
     form: Form = PAPER_FORM,
@@ -193,12 +193,13 @@ def list_files(instrument: Instrument) -> Mapping[str, str]:
     if not _has_files(instrument):
         return {}
     files = _derive_files(instrument, [s.id for s in instrument.effects])
-    return {n: text for n, text in files.items() if not n.startswith("fits/")} | {DIGEST: request(instrument)}
+    readable = {n: text for n, text in files.items() if not n.startswith("fits/")}
+    return readable | {DIGEST: identify(instrument)}
 
 
 def describe_departure(instrument: Instrument, generated: Path | None) -> str | None:
     """That a model directory's ``generated/`` was derived for something else, in a sentence; ``None``: it was not."""
-    if generated is None or not _has_files(instrument) or read_digest(generated) == request(instrument):
+    if generated is None or not _has_files(instrument) or read_digest(generated) == identify(instrument):
         return None
     return (
         "generated/ was not derived for this model.toml by this version; it is not used, and "
@@ -210,8 +211,8 @@ def derive_plain_c(instrument: Instrument) -> Mapping[str, str]:
     """The model in C, for G_out alone, in the order of operations of the NumPy code: file name -> text."""
     from derive import pipeline
 
-    chosen = find_offered(instrument, *(s.id for s in instrument.effects))
-    return pipeline.derive_plain(chosen, _make_symbolic_form(instrument.form, instrument.layout))
+    definitions = find_offered(instrument, *(s.id for s in instrument.effects))
+    return pipeline.derive_plain(definitions, _make_symbolic_form(instrument.form, instrument.layout))
 
 
 def read_chain(instrument: Instrument) -> str:
@@ -226,7 +227,7 @@ MOST_KEPT = 200
 """Derivations that are kept, at most half a megabyte each: a catalogue's effects one by one, and pairs of those that are used."""
 
 
-def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candidates: bool = True) -> str:
+def identify(instrument: Instrument, ids: Sequence[str] | None = None, *, candidates: bool = True) -> str:
     """Digest of all that a derivation depends on, for effects of these ids (else its own), and all ``candidates``."""
     expressions: dict[str, object] = {}
     for s in instrument.effects:
@@ -236,10 +237,10 @@ def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candida
                 for n, q in s.expression["params"].items()
             }
             expressions[s.id] = [s.expression["stage"], s.expression["add"], parameters]
-    chosen = [s.id for s in instrument.effects] if ids is None else ids
-    asked: list[object] = [
+    effect_ids = [s.id for s in instrument.effects] if ids is None else ids
+    parts: list[object] = [
         digest_sources("derive", suffixes=(".py", ".j2"), first=metadata.version("sympy")),
-        [[i, expressions.get(i)] for i in chosen],
+        [[i, expressions.get(i)] for i in effect_ids],
         sorted(map(compute_digest, list_own_sources().values())),
         asdict(instrument.form),
         candidates and expressions,
@@ -247,26 +248,26 @@ def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candida
     layout = instrument.layout
     if not layout.like_paper:
         outputs = [[o.name, o.members, o.signs] for o in layout.outputs]
-        asked += [layout.names, dict(layouts.constants(layout)), outputs]
-    return compute_digest(json.dumps(asked, sort_keys=True))
+        parts += [layout.names, dict(layouts.constants(layout)), outputs]
+    return compute_digest(json.dumps(parts, sort_keys=True))
 
 
-def kept(asked: str) -> Mapping[str, str] | None:
-    """The files that were derived for this request before, if they are at hand."""
-    place = find_private_folder("derived") / f"{asked}.json"
+def load_kept(digest: str) -> Mapping[str, str] | None:
+    """The files that were derived before for what this digest identifies, if they are at hand."""
+    place = find_private_folder("derived") / f"{digest}.json"
     try:
-        found = json.loads(place.read_text("utf-8"))
+        files = json.loads(place.read_text("utf-8"))
         os.utime(place)  # used last: the others go first
     except (OSError, ValueError):
         return None
-    return found if "manifest.json" in found else None
+    return files if "manifest.json" in files else None
 
 
-def keep(asked: str, files: Mapping[str, str]) -> None:
+def keep_files(digest: str, files: Mapping[str, str]) -> None:
     """Keep what a derivation yielded; where that cannot be written, it will be derived again."""
     folder = find_private_folder("derived")
     try:
-        write_text(folder / f"{asked}.json", json.dumps(dict(files)))
+        write_text(folder / f"{digest}.json", json.dumps(dict(files)))
         for old in sorted(folder.glob("*.json"), key=lambda p: -p.stat().st_mtime)[MOST_KEPT:]:
             old.unlink(missing_ok=True)
     except (OSError, UserError):
@@ -282,13 +283,13 @@ VARIABLE = "RAGG_EFFECTS"
 
 def list_own_sources() -> Mapping[str, str]:
     """The text of every module of a package or of RAGG_EFFECTS that defines an effect, by its name or path."""
-    found = {name: inspect.getsource(module) for name, module in _load_installed().items()}
+    sources = {name: inspect.getsource(module) for name, module in _load_installed().items()}
     if named := os.environ.get(VARIABLE):
         if not Path(named).is_dir():
             raise UserError("there is no folder of effects", where=VARIABLE, found=named)
         files = sorted(p for p in Path(named).glob("*.py") if not p.name.startswith((".", "_")))
-        found |= {str(path): read_text(path) for path in files}
-    return found
+        sources |= {str(path): read_text(path) for path in files}
+    return sources
 
 
 def load_own_effects() -> tuple[SymbolicEffect, ...]:
@@ -298,38 +299,38 @@ def load_own_effects() -> tuple[SymbolicEffect, ...]:
         return ()
     from derive.effects import of_module, of_text
 
-    found = []
+    definitions = []
     for name, text in sources.items():
         try:
             module = _load_installed().get(name)
-            found.append(of_text(Path(name), text) if module is None else of_module(module, text))
+            definitions.append(of_text(Path(name), text) if module is None else of_module(module, text))
         except ValueError as error:
-            raise _unread(name, error) from error
-    return tuple(sorted(found, key=lambda e: e.id))
+            raise _report_unread(name, error) from error
+    return tuple(sorted(definitions, key=lambda e: e.id))
 
 
 def list_own_entries() -> tuple[Mapping[str, Any], ...]:
     """Their entries in a catalogue."""
-    found = load_own_effects()
-    if not found:
+    definitions = load_own_effects()
+    if not definitions:
         return ()
     from derive.ir import manifest_of_effect
 
-    return tuple(manifest_of_effect(e) for e in found)
+    return tuple(manifest_of_effect(e) for e in definitions)
 
 
 @cache
 def _load_installed() -> Mapping[str, ModuleType]:
-    found = {}
+    modules = {}
     for entry in sorted(metadata.entry_points(group=GROUP), key=lambda e: e.value):
         try:
-            found[entry.value] = entry.load()
+            modules[entry.value] = entry.load()
         except Exception as error:
-            raise _unread(entry.value, error) from error
-    return found
+            raise _report_unread(entry.value, error) from error
+    return modules
 
 
-def _unread(where: str, error: Exception) -> UserError:
+def _report_unread(where: str, error: Exception) -> UserError:
     return UserError("an effect of your own cannot be read", where=where, found=str(error))
 
 

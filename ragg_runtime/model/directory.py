@@ -17,7 +17,7 @@ from types import MappingProxyType
 from typing import Any
 
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.files import locked, put_in_place, read_text, refuse_to_write
+from ragg_runtime.base.files import lock, put_in_place, read_text, refuse_to_write
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.model_toml import parse_instrument
 
@@ -56,8 +56,8 @@ class HistoryStep:
 
     def was_cut_off(self, model: str, calibration: str | None) -> bool:
         """Whether the file that the step changes is still the one before: the history is written first."""
-        now = compute_digest(calibration if self.action == "calibrate" else model)
-        return len(self.digests) == 2 and now == self.digests[0] != self.digests[1]
+        digest = compute_digest(calibration if self.action == "calibrate" else model)
+        return len(self.digests) == 2 and digest == self.digests[0] != self.digests[1]
 
     def as_json(self) -> dict[str, Any]:
         """The entry as in the file."""
@@ -78,11 +78,11 @@ def history_text(steps: Sequence[HistoryStep]) -> str:
     return json.dumps({"steps": [step.as_json() for step in steps]}, indent=2, allow_nan=False) + "\n"
 
 
-def _error(found: Any) -> Mapping[str, Any] | None:
+def _check_error(error: Any) -> Mapping[str, Any] | None:
     """An error object as in the file; TypeError, ValueError or AttributeError if it is none."""
-    if found is not None:
-        float(found.get("calibrated", found).get("rms_Eo") or 0.0)
-    return found  # type: ignore[no-any-return]
+    if error is not None:
+        float(error.get("calibrated", error).get("rms_Eo") or 0.0)
+    return error  # type: ignore[no-any-return]
 
 
 def read_history(path: Path) -> tuple[HistoryStep, ...]:
@@ -90,20 +90,20 @@ def read_history(path: Path) -> tuple[HistoryStep, ...]:
     if not path.exists():
         return ()
     try:
-        found = tuple(
+        steps = tuple(
             HistoryStep(
                 action=one_line(str(s["action"])),
                 time=one_line(str(s["time"])),
                 effect=one_line(str(s["effect"] or "")),
-                before=_error(s.get("before")),
-                after=_error(s.get("after")),
+                before=_check_error(s.get("before")),
+                after=_check_error(s.get("after")),
                 flights={str(n): str(d) for n, d in s.get("flights", {}).items()},
                 text=str(s.get("model", "")),
                 digests=tuple(map(str, s.get("digests", ()))),
             )
             for s in json.loads(read_text(path, LONGEST))["steps"]
         )
-        history_text(found)  # it is written again with the next step, and holds numbers only
+        history_text(steps)  # it is written again with the next step, and holds numbers only
     except (ArithmeticError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise UserError(
             "the history is damaged",
@@ -112,7 +112,7 @@ def read_history(path: Path) -> tuple[HistoryStep, ...]:
             expected='{"steps": [{"action", "effect", "time", "before", "after", "flights"}, ...]}',
             remedy="restore the file, or remove it: a new history begins with the next step",
         ) from None
-    return found
+    return steps
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,9 +149,9 @@ def load_model_dir(path: Path | str) -> ModelDir:
             remedy=f"make one with: ragg new {path}",
         )
     while True:
-        text, calibration = read = _read(path)
+        text, calibration = texts = _read_texts(path)
         history = read_history(path / HISTORY)
-        if _read(path) == read:  # else a change came between
+        if _read_texts(path) == texts:  # else a change came between
             break
     if history and history[-1].was_cut_off(text, calibration):
         history = history[:-1]
@@ -167,7 +167,7 @@ def load_model_dir(path: Path | str) -> ModelDir:
     )
 
 
-def _read(path: Path) -> tuple[str, str | None]:
+def _read_texts(path: Path) -> tuple[str, str | None]:
     """The texts of model.toml and calibration.json."""
     if not (path / MODEL).exists():
         raise UserError(
@@ -176,8 +176,8 @@ def _read(path: Path) -> tuple[str, str | None]:
             found=", ".join(sorted(p.name for p in path.iterdir())[:8]) or "an empty directory",
             remedy="make a model with: ragg new",
         )
-    kept = path / CALIBRATION
-    return read_text(path / MODEL), read_text(kept, LONGEST) if kept.exists() else None
+    calibration = path / CALIBRATION
+    return read_text(path / MODEL), read_text(calibration, LONGEST) if calibration.exists() else None
 
 
 def create_model_dir(
@@ -227,18 +227,18 @@ def replace_model_dir(
     path = current.path
     parse_instrument(text, path / MODEL)
     try:
-        with locked(path, _PATIENCE):
-            found = load_model_dir(path)
-            if found.text != current.text:
+        with lock(path, _PATIENCE):
+            stored = load_model_dir(path)
+            if stored.text != current.text:
                 raise UserError(
                     "the model was changed in the meantime",
                     where=path,
                     remedy="look at it with: ragg history, load it again and repeat the change",
                 )
-            changed = (found.text, text) if calibration is None else (found.calibration, calibration)
-            history = (*found.history, replace(step, digests=tuple(map(compute_digest, changed))))
+            changed = (stored.text, text) if calibration is None else (stored.calibration, calibration)
+            history = (*stored.history, replace(step, digests=tuple(map(compute_digest, changed))))
             files = {MAPPING: mapping, HISTORY: history_text(history), CALIBRATION: calibration}
-            _put(path, files | {MODEL: None if text == found.text else text}, generated)
+            _put(path, files | {MODEL: None if text == stored.text else text}, generated)
     except TimeoutError:
         raise UserError(
             "another command is changing the model", where=path, remedy="wait for it to end and try again"

@@ -100,35 +100,36 @@ def first_memories(effects: Iterable[DerivedEffect], r: Record) -> Iterator[tupl
         yield e, Memory(str(e.memory), values)
 
 
-def add_responses(r: Record, memories: Iterable[Memory], wanted: Container[str]) -> Record:
-    """The record with the ``wanted`` series that these memories make of it."""
+def add_responses(r: Record, memories: Iterable[Memory], names: Container[str]) -> Record:
+    """The record with the ``names`` series that these memories make of it."""
     wide = dict(r.wide)
     for m in memories:
-        wide |= _responses(r, m, wanted)
+        wide |= _compute_responses(r, m, names)
     return r if len(wide) == len(r.wide) else replace(r, wide=wide)
 
 
-def _responses(r: Record, m: Memory, wanted: Container[str]) -> dict[str, Array]:
+def _compute_responses(r: Record, m: Memory, names: Container[str]) -> dict[str, Array]:
     """Name -> (before + N + after,), as the channels of a part."""
-    whole = r.whole or r
+    record = r.whole or r
     start, stop = r.first, r.first + len(r.time) + sum(r.halo)
-    reach = min(int(np.ceil(m.lasts * r.rate)), len(whole.time))
-    first, last = max(start - reach, 0), min(stop + reach, len(whole.time))
-    near = whole.part(slice(first, last))
+    reach = min(int(np.ceil(m.lasts * r.rate)), len(record.time))
+    first, last = max(start - reach, 0), min(stop + reach, len(record.time))
+    near = record.part(slice(first, last))
     # a part of a record has zeros for what is missing
-    there = {
-        n: bridge_gaps(x, near.valid | ((x != 0.0) & np.isfinite(x))) for n, x in _given(m.kind, near).items()
+    series = {
+        n: bridge_gaps(x, near.valid | ((x != 0.0) & np.isfinite(x)))
+        for n, x in _collect_inputs(m.kind, near).items()
     }
     slips = m.kind in SLIPPING
-    found = _slip(there, m, wanted) if slips else _filter_record(there, m, near.rate, reach, wanted)
+    responses = _slip(series, m, names) if slips else _filter_record(series, m, near.rate, reach, names)
     if m.kind in RELAXING:
         t, tau = near.time, m.values["tau"]
-        left = np.exp(-t / tau)
-        found |= {f"{m.kind}_start": left, f"{m.kind}_start_by_tau": t / tau**2 * left}
-    return {n: x[start - first : stop - first] for n, x in found.items() if n in wanted}
+        decay = np.exp(-t / tau)
+        responses |= {f"{m.kind}_start": decay, f"{m.kind}_start_by_tau": t / tau**2 * decay}
+    return {n: x[start - first : stop - first] for n, x in responses.items() if n in names}
 
 
-def _given(kind: str, r: Record) -> Mapping[str, Array]:
+def _collect_inputs(kind: str, r: Record) -> Mapping[str, Array]:
     """What the memory is of."""
     if kind == "mount":
         motion = (f"{n}_{k}" for n in ("a", "omega", "omegadot") for k in "xyz")
@@ -144,25 +145,25 @@ def _given(kind: str, r: Record) -> Mapping[str, Array]:
     # each accelerometer's axes must be those of the one at angle 0, up to their order and signs
     if kind in SLIPPING and any(abs(cosine * sine) >= 1e-9 for cosine, sine, _ in r.input_axes):
         return {}
-    own = f"{kind}_" if kind in RELAXING else ""
-    return {f"{own}{n}": x for n, x in zip(names, force, strict=True)}
+    prefix = f"{kind}_" if kind in RELAXING else ""
+    return {f"{prefix}{n}": x for n, x in zip(names, force, strict=True)}
 
 
-def _slip(force: Mapping[str, Array], m: Memory, wanted: Container[str]) -> dict[str, Array]:
-    found, w = {}, m.values["w"]
+def _slip(force: Mapping[str, Array], m: Memory, names: Container[str]) -> dict[str, Array]:
+    responses, w = {}, m.values["w"]
     for axis, x in force.items():
         name = f"{m.kind}_{axis}"
-        if name not in wanted:
+        if name not in names:
             continue
         between = make_interp_spline(np.arange(len(x)), x, k=3)(np.arange(FINER * len(x)) / FINER)
-        found[name] = stop(between, w)[::FINER]
-        if f"{name}_by_w" in wanted:
-            narrower, wider = (stop(between, w * (1.0 + side * DIFFERENCE)) for side in (-1.0, 1.0))
-            found[f"{name}_by_w"] = (wider - narrower)[::FINER] / (2 * DIFFERENCE * w)
-    return found
+        responses[name] = apply_stop(between, w)[::FINER]
+        if f"{name}_by_w" in names:
+            narrower, wider = (apply_stop(between, w * (1.0 + side * DIFFERENCE)) for side in (-1.0, 1.0))
+            responses[f"{name}_by_w"] = (wider - narrower)[::FINER] / (2 * DIFFERENCE * w)
+    return responses
 
 
-def stop(x: Array, w: float) -> Array:
+def apply_stop(x: Array, w: float) -> Array:
     """(N,): the stop operator of x, over w: it follows x between -1 and 1, at first from 0.
 
     What has play follows by y = clip(y before, x - w, x + w). Two such steps are one with limits of their own, so that all are
@@ -180,18 +181,18 @@ def stop(x: Array, w: float) -> Array:
 
 
 def _filter_record(
-    given: Mapping[str, Array], m: Memory, rate: float, reach: int, wanted: Container[str]
+    inputs: Mapping[str, Array], m: Memory, rate: float, reach: int, names: Container[str]
 ) -> dict[str, Array]:
-    found: dict[str, Array] = {}
-    for name, x in given.items():
+    responses: dict[str, Array] = {}
+    for name, x in inputs.items():
         length = next_fast_len(len(x) + 2 * reach, real=True)
         s = np.asarray(2j * np.pi * rfftfreq(length, 1.0 / rate), dtype=np.complex128)
-        ways = {n: H for n, H in _transfer(m, name, s).items() if n in wanted}
+        ways = {n: H for n, H in _derive_transfer(m, name, s).items() if n in names}
         if ways:
             spectrum: Complex = rfft(_continue_smoothly(x, reach, length - len(x) - reach))
             for n, H in ways.items():
-                found[n] = float(H[0].real) * np.mean(x) + irfft(spectrum * H, length)[reach:][: len(x)]
-    return found
+                responses[n] = float(H[0].real) * np.mean(x) + irfft(spectrum * H, length)[reach:][: len(x)]
+    return responses
 
 
 def _continue_smoothly(x: Array, before: int, after: int) -> Array:
@@ -203,7 +204,7 @@ def _continue_smoothly(x: Array, before: int, after: int) -> Array:
     return longer
 
 
-def _transfer(m: Memory, name: str, s: Complex) -> dict[str, Complex]:
+def _derive_transfer(m: Memory, name: str, s: Complex) -> dict[str, Complex]:
     """Response -> transfer function at s, 1/s, and its derivatives by what describes the memory."""
     if m.kind in RELAXING:
         H = 1 / (1 + m.values["tau"] * s)
@@ -216,12 +217,12 @@ def _transfer(m: Memory, name: str, s: Complex) -> dict[str, Complex]:
     else:
         powers = {"rate": s, "curvature": s**2}
         ways = {f"{k}_{name}": (N / D, -N * s**2 / D**2, -N * s / D**2) for k, N in powers.items()}
-    found: dict[str, Complex] = {}
+    responses: dict[str, Complex] = {}
     for response, (H, by_b, by_d) in ways.items():
-        found[response] = H
-        found[f"{response}_by_f_0"] = -(2 * b * by_b + d * by_d) / f_0
-        found[f"{response}_by_Q"] = -d / Q * by_d
-    return found
+        responses[response] = H
+        responses[f"{response}_by_f_0"] = -(2 * b * by_b + d * by_d) / f_0
+        responses[f"{response}_by_Q"] = -d / Q * by_d
+    return responses
 
 
 def move_record(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
@@ -248,6 +249,6 @@ def move_record(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
 
 def list_late(model: Model) -> Iterator[tuple[int, DerivedParameter]]:
     """Parameters of a model that make motion late, each with its place in the parameter vector."""
-    found = [q for e in model.effects for q in e.parameters if q.late]
-    places = model.chain.places if found else {}
-    yield from sorted(((places[q.symbol].start, q) for q in found), key=lambda x: x[0])
+    parameters = [q for e in model.effects for q in e.parameters if q.late]
+    places = model.chain.places if parameters else {}
+    yield from sorted(((places[q.symbol].start, q) for q in parameters), key=lambda x: x[0])

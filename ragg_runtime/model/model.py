@@ -137,7 +137,7 @@ def _load(package: str) -> Model:
     modules = {n: importlib.import_module(f"{package}.{n}") for n in names}
     c = {f"{n}.{kind}": root.joinpath("c", f"{n}.{kind}").read_text("utf-8") for n in names for kind in "ch"}
     # compiled once for all flights, a derived model for one fit
-    return _model(json.loads(root.joinpath("manifest.json").read_text("utf-8")), modules, c, quick=False)
+    return _make_model(json.loads(root.joinpath("manifest.json").read_text("utf-8")), modules, c, quick=False)
 
 
 def load_files(files: Mapping[str, str], layout: Layout = PAPER) -> Model:
@@ -154,10 +154,10 @@ def load_files(files: Mapping[str, str], layout: Layout = PAPER) -> Model:
         modules[stem] = module
     c = {n.partition("/")[2]: text for n, text in files.items() if n.startswith(("c/", "fits/"))}
     own = PAPER if layout.like_paper else layout
-    return _model(json.loads(files["manifest.json"]), modules, c, own)
+    return _make_model(json.loads(files["manifest.json"]), modules, c, own)
 
 
-def _model(
+def _make_model(
     manifest: Mapping[str, Any],
     modules: Mapping[str, ModuleType],
     c: Mapping[str, str],
@@ -165,13 +165,13 @@ def _model(
     *,
     quick: bool = True,
 ) -> Model:
-    effects = {e["id"]: _effect(e) for e in manifest["catalogue"]}
+    effects = {e["id"]: _make_effect(e) for e in manifest["catalogue"]}
     present = manifest["effects"]
 
     def chain(name: str) -> Chain:
-        own = {n: text for n, text in c.items() if n.startswith("signatures.") == (name == "signatures")}
+        sources = {n: text for n, text in c.items() if n.startswith("signatures.") == (name == "signatures")}
         folded = modules.get("folded") if name == "chain" else None
-        return Chain(cast(ChainModule, modules[name]), layout, name, own, quick, folded)
+        return Chain(cast(ChainModule, modules[name]), layout, name, sources, quick, folded)
 
     searched = "signatures" in modules
     candidates = tuple(e for i, e in effects.items() if i not in present) if searched else ()
@@ -190,7 +190,7 @@ def _model(
     )
 
 
-def _effect(entry: Mapping[str, Any]) -> DerivedEffect:
+def _make_effect(entry: Mapping[str, Any]) -> DerivedEffect:
     parameters = tuple(
         DerivedParameter(**{**q, "late": tuple(q.get("late", ()))}) for q in entry["parameters"]
     )
@@ -225,7 +225,7 @@ def make_vector(model: Model, instrument: Instrument) -> Array:
 
     UserError if model.toml gives an effect a parameter that it does not have, or one of a wrong dimension.
     """
-    known, layout = instrument.units, instrument.layout
+    units, layout = instrument.units, instrument.layout
     spins = np.array([layout.discs[q.disc].spin_frequency for q in layout.places])
     values = {"radius": instrument.radii, "spin_frequency": spins}
     if layout.like_paper:  # one value each
@@ -236,14 +236,14 @@ def make_vector(model: Model, instrument: Instrument) -> Array:
         where = None if instrument.path is None else str(instrument.path)
         check_keys(setting.values, [q.name for q in e.parameters], at(where, "effects", e.id))
         for q in e.parameters:
-            size, si = 1 if q.shared else layout.size, known.base_unit(q.unit)
-            given = setting.si(q.name, si, known.g0, shared=q.shared, where=where, count=size)
-            neutral = np.full(size, q.default * find_unit_factor(q.unit, known))
-            values[q.symbol] = neutral if given is None else given
+            size, si = 1 if q.shared else layout.size, units.base_unit(q.unit)
+            value = setting.si(q.name, si, units.g0, shared=q.shared, where=where, count=size)
+            neutral = np.full(size, q.default * find_unit_factor(q.unit, units))
+            values[q.symbol] = neutral if value is None else value
     return np.concatenate([values[name] for name, _ in model.chain.PARAMETERS])
 
 
 @cache
-def find_unit_factor(unit: str, known: Units) -> float:
+def find_unit_factor(unit: str, units: Units) -> float:
     """SI value of one display unit."""
-    return float(known.to_si(1.0, unit, known.base_unit(unit)))
+    return float(units.to_si(1.0, unit, units.base_unit(unit)))

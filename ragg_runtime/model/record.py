@@ -22,12 +22,12 @@ from ragg_runtime.signals import demodulators
 from ragg_runtime.signals.demodulators import CUTOFF, Demodulator
 from ragg_runtime.signals.derivative import (
     DEGREES,
-    best_degree,
+    choose_degree,
     differentiate,
     interpolate_even,
     runs,
     smooth_slope,
-    steady_and_swing,
+    split_angle,
 )
 from ragg_runtime.signals.fir import convolve
 
@@ -158,8 +158,8 @@ class Record:
 
     def series(self, name: str) -> Array | None:
         """A channel, or the time derivative ``d_<channel>``, ``d2_<channel>`` of one; ``None`` if unknown."""
-        found = self._wide(name)
-        return None if found is None else self._inner(found)
+        wide = self._wide(name)
+        return None if wide is None else self._inner(wide)
 
     def quantity(self, name: str) -> Array:
         """(N,): what a level of noise may follow: ``time``, ``phi`` (from 0 to 2 pi), a channel, ``abs(CHANNEL)``, ``abs(VECTOR)``, its
@@ -189,11 +189,11 @@ class Record:
     @property
     def different_axes(self) -> list[int]:
         """Of the output's accelerometers those with different input axes, the first of each two that are parallel."""
-        found: list[int] = []
+        axes: list[int] = []
         for k, (c, s, _) in enumerate(self.input_axes):
-            if all(abs(c * self.input_axes[j][1] - s * self.input_axes[j][0]) > PARALLEL for j in found):
-                found.append(k)
-        return found
+            if all(abs(c * self.input_axes[j][1] - s * self.input_axes[j][0]) > PARALLEL for j in axes):
+                axes.append(k)
+        return axes
 
     def along_disc(self, prefix: str = "") -> tuple[Array, Array, Array]:
         """The specific force along the axes of the disc at rest, (N,) each, m/s^2; with the prefix ``d_`` or ``d2_`` its derivative."""
@@ -211,10 +211,10 @@ class Record:
             return self
         halo = min(a, HALO), min(n - b, HALO)
         first = self.halo[0] + a - halo[0]
-        here = slice(first, first + halo[0] + b - a + halo[1])
-        wanted = [k for k in self.wide if only is None or k in only or k == self.angle_column]
-        wide = {k: np.array(self.wide[k][here]) for k in wanted}
-        reading = None if self.reading is None else np.array(self.reading[here])
+        window = slice(first, first + halo[0] + b - a + halo[1])
+        names = [k for k in self.wide if only is None or k in only or k == self.angle_column]
+        wide = {k: np.array(self.wide[k][window]) for k in names}
+        reading = None if self.reading is None else np.array(self.reading[window])
         for x in (*wide.values(), *([] if reading is None else [reading])):
             if not np.isfinite(np.dot(x, x)):  # cheap, and true wherever something is not finite
                 x[~np.isfinite(x)] = 0.0
@@ -239,17 +239,17 @@ class Record:
         at = np.arange(samples, dtype=np.float64)
         time = self.time if self.whole is None else self.whole.time[self.first : self.first + samples]
         later = {q: (offset + drift * time) * self.rate for q, (offset, drift) in moves.items()}
-        for quantity, by in later.items():
+        for quantity, shift in later.items():
             names = [n for n in (quantity, *(f"{quantity}_{k}" for k in "xyz")) if n in wide]
-            own = [self.wide[n] for n in names]
+            series = [self.wide[n] for n in names]
             if quantity == "omega" and all(f"omegadot_{n[-1]}" in wide for n in names):
                 slopes = [self.wide[f"omegadot_{n[-1]}"] / self.rate for n in names]
-                there = at + later.get("omegadot", 0.0)
-                ends = [np.clip(x, -1.0, samples) for x in (there, there - by)]
+                instants = at + later.get("omegadot", 0.0)
+                ends = [np.clip(x, -1.0, samples) for x in (instants, instants - shift)]
                 upper, lower = (interpolate_even(slopes, x, integral=True) for x in ends)
-                moved = np.stack(own) + upper - lower
+                moved = np.stack(series) + upper - lower
             else:
-                moved = interpolate_even(own, np.clip(at + by, -1.0, samples))
+                moved = interpolate_even(series, np.clip(at + shift, -1.0, samples))
             wide |= dict(zip(names, moved, strict=True))
         return replace(self, wide=wide)
 
@@ -283,19 +283,19 @@ def measure_spin(encoder: Array, time: Array, rate: float) -> dict[str, Array]:
     """
     late = (time - time[:1]) * rate - np.arange(len(time))
     even = np.max(np.abs(late), initial=0.0) <= EVEN
-    found = make_spin(0.0, len(time))
+    spin = make_spin(0.0, len(time))
     half = min(max(round(SPIN_WINDOW * rate), DEGREES[0]), HALO)
     stretches = [
-        (run, *steady_and_swing(encoder[run], None if even else late[run]))
+        (run, *split_angle(encoder[run], None if even else late[run]))
         for run in runs(np.isfinite(encoder), DEGREES[0] + 2)
     ]
-    best = best_degree((swing for _, _, swing in stretches), half)
+    best = choose_degree((swing for _, _, swing in stretches), half)
     for run, steady, swing in stretches:
-        own = min(half, (len(swing) - 1) // 2)
-        degree = max(d for d in DEGREES if d == DEGREES[0] or d <= min(best, 2 * own - 1))
-        found[SPIN[0]][run] = (smooth_slope(swing, own, 1, degree) + steady) * rate
-        found[SPIN[1]][run] = smooth_slope(swing, own, 2, degree) * (rate * rate)
-    return found
+        window = min(half, (len(swing) - 1) // 2)
+        degree = max(d for d in DEGREES if d == DEGREES[0] or d <= min(best, 2 * window - 1))
+        spin[SPIN[0]][run] = (smooth_slope(swing, window, 1, degree) + steady) * rate
+        spin[SPIN[1]][run] = smooth_slope(swing, window, 2, degree) * (rate * rate)
+    return spin
 
 
 def disc_angle(time: Array, spin_frequency: float, start: float = 0.0) -> Array:
@@ -353,8 +353,8 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
 
 def list_recorded_channels(flight: Flight, layout: Layout) -> frozenset[str]:
     """The channels of a flight that an effect may need."""
-    read = any(o.name in flight.outputs for o in layout.outputs)
-    return frozenset((*flight.channels, *([READING] if read else [])))
+    has_output = any(o.name in flight.outputs for o in layout.outputs)
+    return frozenset((*flight.channels, *([READING] if has_output else [])))
 
 
 def strip_derivative(name: str) -> str:
@@ -374,20 +374,20 @@ UNEVEN = 1e-3
 @cache
 def make_kernel(d: Demodulation, rate: float) -> Demodulator:
     """Of a record at ``rate``, Hz; where the channels were made at a higher rate, thinned out as they were."""
-    every = 1 if d.rate is None else round(d.rate / rate)
-    if d.rate is not None and (every < 1 or abs(d.rate / (every * rate) - 1) > UNEVEN):
+    factor = 1 if d.rate is None else round(d.rate / rate)
+    if d.rate is not None and (factor < 1 or abs(d.rate / (factor * rate) - 1) > UNEVEN):
         raise UserError(
             "the demodulator's rate is not a multiple of the record's",
             where="[demodulator] rate",
             found=f"{d.rate:.6g} Hz, the record at {rate:.6g} Hz",
             expected="the rate at which the channels were made, of which the record keeps every second, third ... sample",
         )
-    made = _at(d, rate * every)
-    made = made.thinned(every) if every > 1 else made
-    return made.delayed(d.delay) if d.delay else made
+    demodulator = _make_demodulator(d, rate * factor)
+    demodulator = demodulator.thin(factor) if factor > 1 else demodulator
+    return demodulator.delay_by(d.delay) if d.delay else demodulator
 
 
-def _at(d: Demodulation, rate: float) -> Demodulator:
+def _make_demodulator(d: Demodulation, rate: float) -> Demodulator:
     if d.kind == "none":
         return Demodulator("none", rate, np.ones(1), 0)  # every value is of its own instant
     if d.kind == "fir" or (d.cutoff is None and d.length is None):
@@ -419,13 +419,13 @@ class RecordedSeries:
         """Whether the recorder has demodulated it: neighbouring samples are not independent, and the mean is lost."""
         return self.kind == "channels"
 
-    def columns(self, layout: Layout, o: Output, held: Container[str]) -> tuple[str, ...] | None:
+    def columns(self, layout: Layout, o: Output, present: Container[str]) -> tuple[str, ...] | None:
         """The columns that hold it, among those that a flight has; ``None`` if not all are there."""
         if self.separate:
-            return layout.voltages(o, held)
-        wanted = DEMODULATED if self.demodulated else (o.name,)
+            return layout.voltages(o, present)
+        names = DEMODULATED if self.demodulated else (o.name,)
         alone = len(layout.outputs) == 1 or not self.demodulated
-        return wanted if alone and all(n in held for n in wanted) else None
+        return names if alone and all(n in present for n in names) else None
 
     def series(self, columns: Sequence[Array], r: Record, k_ggi: float) -> tuple[Array, ...]:
         """What is fitted, m series (N,), V, made of its columns in SI; ``k_ggi`` in V s^2."""

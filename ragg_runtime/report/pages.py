@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ragg_runtime.base.errors import count, missing_package
-from ragg_runtime.base.files import MISSING, versions
+from ragg_runtime.base.files import MISSING, list_versions
 from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.identification.comparison import Comparison
@@ -58,7 +58,7 @@ def render_page(kind: str, sections: Sequence[Section], source: Source, f: Fitte
         sections = [*sections, Section("What was done to the record", notes, detail=len(notes) > 3)]
     first, *others = sections
     draw = _find_renderer()
-    used = ", ".join(f"{n} {v}" for n, v in versions().items() if v != MISSING)
+    used = ", ".join(f"{n} {v}" for n, v in list_versions().items() if v != MISSING)
     model = f.model if f is not None else source.m and source.m.model
     page = make_environment("ragg_runtime.report", html=True).get_template("page.html.j2")
     return numbers.clean(

@@ -154,20 +154,20 @@ class Demodulator:
         half = max(self.before, self.ahead)
         return np.pad(self.taps, (half - self.ahead, half - self.before))
 
-    def thinned(self, every: int) -> Demodulator:
-        """What it is to the samples that are left if of its output every so many are kept, and of what it is made of too."""
-        taps = self.taps[self.ahead % every :: every]
-        return replace(self, rate=self.rate / every, taps=taps / np.sum(taps), ahead=self.ahead // every)
+    def thin(self, factor: int) -> Demodulator:
+        """The same filter at a rate that is lower by ``factor``: of its output, and of what it is made of, every so many samples."""
+        taps = self.taps[self.ahead % factor :: factor]
+        return replace(self, rate=self.rate / factor, taps=taps / np.sum(taps), ahead=self.ahead // factor)
 
-    def delayed(self, seconds: float) -> Demodulator:
+    def delay_by(self, seconds: float) -> Demodulator:
         """Its output so much later; by parts of a sample with a phase in the spectrum."""
-        whole = round(seconds * self.rate)
-        part = seconds * self.rate - whole
-        taps, ahead = self.taps, self.ahead - whole
-        if abs(part) > 1e-9:
+        samples = round(seconds * self.rate)
+        fraction = seconds * self.rate - samples
+        taps, ahead = self.taps, self.ahead - samples
+        if abs(fraction) > 1e-9:
             taps = np.pad(taps, ROOM)
             ahead += ROOM
-            spectrum = np.fft.rfft(taps) * np.exp(-2j * np.pi * np.fft.rfftfreq(len(taps)) * part)
+            spectrum = np.fft.rfft(taps) * np.exp(-2j * np.pi * np.fft.rfftfreq(len(taps)) * fraction)
             taps = np.fft.irfft(spectrum, len(taps))
         # of the past alone, or of the future alone: the kernel then has zeros at the present
         taps = np.pad(taps, (max(0, -ahead), max(0, ahead - len(taps) + 1)))
@@ -185,7 +185,7 @@ class Demodulator:
         power = np.abs(self.response(f)) ** 2 * psd(np.abs(carrier + f))
         return float(np.sum(power) * (f[1] - f[0]))
 
-    def low_passed(self, x: Series) -> Series:
+    def low_pass(self, x: Series) -> Series:
         """Series (..., N) through the kernel; beyond their ends they are taken as zero."""
         ends = [(0, 0)] * (x.ndim - 1) + [(self.before, self.ahead)]
         padded: Series = np.pad(x, ends)
@@ -194,14 +194,14 @@ class Demodulator:
 
 def fir(rate: float, cutoff: float = CUTOFF) -> Demodulator:
     """The paper's low-pass, or one as narrow at another corner, Hz."""
-    taps, own = low_pass(rate, cutoff=cutoff), " (the paper's)" if cutoff == CUTOFF else ""
-    words = f"linear-phase FIR, half amplitude at {cutoff:g} Hz{own}"
+    taps, remark = low_pass(rate, cutoff=cutoff), " (the paper's)" if cutoff == CUTOFF else ""
+    words = f"linear-phase FIR, half amplitude at {cutoff:g} Hz{remark}"
     return Demodulator("fir", rate, taps, len(taps) // 2, words)
 
 
 def butterworth(rate: float, order: int = ORDER, cutoff: float = CORNER) -> Demodulator:
     """Forward and backward."""
-    h = _impulse(rate, order, cutoff)
+    h = _measure_impulse(rate, order, cutoff)
     words = f"Butterworth of order {order} at {cutoff:g} Hz, forward and backward"
     return Demodulator("butterworth", rate, convolve(h, h[::-1], "full"), len(h) - 1, words)
 
@@ -209,10 +209,10 @@ def butterworth(rate: float, order: int = ORDER, cutoff: float = CORNER) -> Demo
 def causal(rate: float, order: int = ORDER, cutoff: float = CORNER) -> Demodulator:
     """Forward alone."""
     words = f"Butterworth of order {order} at {cutoff:g} Hz, forward only"
-    return Demodulator("causal", rate, _impulse(rate, order, cutoff), 0, words)
+    return Demodulator("causal", rate, _measure_impulse(rate, order, cutoff), 0, words)
 
 
-def _impulse(rate: float, order: int, cutoff: float) -> Array:
+def _measure_impulse(rate: float, order: int, cutoff: float) -> Array:
     """Impulse response of a Butterworth low-pass until it is forgotten, its sum 1."""
     from scipy import signal  # slow to import, and only these demodulators need it
 

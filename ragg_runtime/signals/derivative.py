@@ -50,7 +50,7 @@ def differentiate(x: Array, rate: float, valid: Mask | None = None) -> Array:
     )
     result = np.full_like(x, np.nan)
     for run in runs(present):
-        result[..., run] = _derivative(x[..., run]) * rate
+        result[..., run] = _differentiate_run(x[..., run]) * rate
     return result
 
 
@@ -60,15 +60,15 @@ def runs(present: Mask, shortest: int = 1) -> list[slice]:
     return [slice(int(a), int(b)) for a, b in edges.reshape(-1, 2) if b - a >= shortest]
 
 
-def find_short_runs(x: Mask, most: int) -> Mask:
+def find_short_runs(x: Mask, longest: int) -> Mask:
     """(N,): which are True in a run of at most so many."""
-    found = np.array(x)
-    for run in runs(x, most + 1):
-        found[run] = False
-    return found
+    short = np.array(x)
+    for run in runs(x, longest + 1):
+        short[run] = False
+    return short
 
 
-def _derivative(x: Array) -> Array:
+def _differentiate_run(x: Array) -> Array:
     """Derivative per sample of an uninterrupted run."""
     n = x.shape[-1]
     if n < 2:
@@ -97,7 +97,7 @@ def weights(window: int, at: int, band: float = BAND) -> Array:
     scale = 1 / np.maximum(theta, 0.05 * np.pi) / np.sqrt(len(theta))
     phase = np.outer(theta, k)
     response = np.concatenate([np.cos(phase) * scale[:, None], np.sin(phase) * scale[:, None]])
-    wanted = np.concatenate([np.zeros_like(theta), theta * scale])
+    target = np.concatenate([np.zeros_like(theta), theta * scale])
     degree = min(_POLYNOMIAL, window - 1)
     moments = np.stack([(k / window) ** d for d in range(degree + 1)])
     moment = np.zeros(degree + 1)
@@ -107,7 +107,7 @@ def weights(window: int, at: int, band: float = BAND) -> Array:
     free = q[:, degree + 1 :]
     damping = 3e-5 if edge else 1e-6
     left = np.concatenate([response @ free, damping * free])
-    right = np.concatenate([wanted - response @ fixed, -damping * fixed])
+    right = np.concatenate([target - response @ fixed, -damping * fixed])
     weights = np.asarray(fixed + free @ np.linalg.lstsq(left, right, rcond=None)[0])
     if 2 * at == window - 1:
         weights = (weights - weights[::-1]) / 2  # to the last bit: a constant must give zero
@@ -120,47 +120,47 @@ BRIDGE, FAR = 7, 16
 1e-4 of the standard deviation, a cubic one 4e-3 to 1e-2; between rates held for two samples a cubic one left 600 Eo."""
 
 
-def bridge_gaps(x: Array, there: Mask, *, smooth: bool = False, turning: bool = False) -> Array:
+def bridge_gaps(x: Array, present: Mask, *, smooth: bool = False, turning: bool = False) -> Array:
     """A series (N,) between the samples that are there (N,): linearly, or by a spline where gaps are not too wide.
 
     The angle of a disc is ``turning``: whole turns may be missing in it, and it turns on beyond the ends.
     """
-    if there.all() or not there.any():
+    if present.all() or not present.any():
         return x
-    at, k = np.flatnonzero(there), np.arange(len(x))
-    known = np.unwrap(x[at]) if turning else x[at]
-    turn = np.polyfit(at, known, 1) if turning else np.zeros(1)
-    off = known - np.polyval(turn, at)
-    made, apart = np.interp(k, at, off), np.diff(at)
+    at, k = np.flatnonzero(present), np.arange(len(x))
+    values = np.unwrap(x[at]) if turning else x[at]
+    turn = np.polyfit(at, values, 1) if turning else np.zeros(1)
+    off = values - np.polyval(turn, at)
+    bridge, apart = np.interp(k, at, off), np.diff(at)
     wide = np.flatnonzero(apart > FAR * np.median(apart if len(apart) else 1)) + 1
-    for some in np.split(np.arange(len(at)), wide) if smooth else ():
-        if len(some) > 1:
-            inside, degree = slice(at[some[0]], at[some[-1]] + 1), min(BRIDGE, len(some) // 2 * 2 - 1)
-            made[inside] = interpolate.make_interp_spline(at[some], off[some], degree)(k[inside])
-    return np.where(there, x, made + np.polyval(turn, k))
+    for group in np.split(np.arange(len(at)), wide) if smooth else ():
+        if len(group) > 1:
+            inside, degree = slice(at[group[0]], at[group[-1]] + 1), min(BRIDGE, len(group) // 2 * 2 - 1)
+            bridge[inside] = interpolate.make_interp_spline(at[group], off[group], degree)(k[inside])
+    return np.where(present, x, bridge + np.polyval(turn, k))
 
 
 PREDICTED = 24  # samples from which an autoregressive series predicts the next: as many as enter a derivative
 
 
-def predict_missing(x: Array, there: Mask) -> Array:
+def predict_missing(x: Array, present: Mask) -> Array:
     """A series (N,), and where up to ``PREDICTED`` samples are missing those that it predicts best: it is taken to be autoregressive,
     and the missing samples to be those that leave the least errors of prediction (A. Janssen, R. Veldhuis, L. Vries, IEEE Trans. ASSP
     34, 1986, 317). Elsewhere, and where few stretches are whole, by a spline.
     """
-    found, size = bridge_gaps(x, there, smooth=True), PREDICTED + 1
-    whole = np.convolve(there, np.ones(size), "valid")[: 1 << 15] > PREDICTED + 0.5
-    known = ~find_short_runs(~there, PREDICTED)
-    known[:PREDICTED] = known[len(x) - PREDICTED :] = True
-    if known.all() or np.sum(whole) < 4 * size:
-        return found
-    mean = np.mean(found)
-    learnt = np.lib.stride_tricks.sliding_window_view(found - mean, size)[: len(whole)][whole]
+    bridged, size = bridge_gaps(x, present, smooth=True), PREDICTED + 1
+    complete = np.convolve(present, np.ones(size), "valid")[: 1 << 15] > PREDICTED + 0.5
+    fixed = ~find_short_runs(~present, PREDICTED)
+    fixed[:PREDICTED] = fixed[len(x) - PREDICTED :] = True
+    if fixed.all() or np.sum(complete) < 4 * size:
+        return bridged
+    mean = np.mean(bridged)
+    learnt = np.lib.stride_tricks.sliding_window_view(bridged - mean, size)[: len(complete)][complete]
     taps = np.r_[1.0, -np.linalg.lstsq(learnt[:, :-1], learnt[:, -1], rcond=1e-12)[0][::-1]]
     try:
-        return np.asarray(fill_gaps((found - mean)[None], known, taps, rounding=0.0)[0] + mean)
+        return np.asarray(fill_gaps((bridged - mean)[None], fixed, taps, rounding=0.0)[0] + mean)
     except linalg.LinAlgError:  # as singular as a constant
-        return found
+        return bridged
 
 
 # degree of the spline that interpolates: at 42 % of the Nyquist frequency it errs by 4e-6 of the amplitude, at 65 % by 1e-3
@@ -176,8 +176,8 @@ def interpolate_even(x: Sequence[Array], at: Array, *, integral: bool = False) -
     degree = min(SPLINE, (len(rows) - 1) // 2 * 2 - 1)
     first = rows[:1]  # a large constant would cost digits
     spline = interpolate.make_interp_spline(np.arange(len(rows), dtype=np.float64), rows - first, k=degree)
-    found = spline(at) + first if not integral else spline.antiderivative()(at) + first * at[:, None]
-    return np.asarray(found.T)
+    values = spline(at) + first if not integral else spline.antiderivative()(at) + first * at[:, None]
+    return np.asarray(values.T)
 
 
 # of the polynomials that smooth a series for its slope: each leaves less of a fast swing out, and lets more noise in
@@ -190,19 +190,19 @@ def smooth_slope(x: Array, half: int, order: int, degree: int = DEGREES[0]) -> A
     Towards an end the polynomial is that through the last 2 ``half`` + 1 samples. The operations and their order are
     those of the exported programs.
     """
-    window, found = 2 * half + 1, np.empty(len(x))
+    window, slope = 2 * half + 1, np.empty(len(x))
     middle = polynomial_weights(half, 0, order, degree)
     if order == 2:
         middle = middle.copy()  # its sum must be zero, or a series far from zero would leave its rounding
         middle[half] = -2.0 * np.cumsum(middle[:half])[-1]
-    ndimage.correlate1d(x, middle, output=found, mode="nearest")
+    ndimage.correlate1d(x, middle, output=slope, mode="nearest")
     for k in range(half):
-        found[k] = np.cumsum(polynomial_weights(half, k - half, order, degree) * x[:window])[-1]
-        found[len(x) - 1 - k] = np.cumsum(polynomial_weights(half, half - k, order, degree) * x[-window:])[-1]
-    return found
+        slope[k] = np.cumsum(polynomial_weights(half, k - half, order, degree) * x[:window])[-1]
+        slope[len(x) - 1 - k] = np.cumsum(polynomial_weights(half, half - k, order, degree) * x[-window:])[-1]
+    return slope
 
 
-def steady_and_swing(angle: Array, late: Array | None = None) -> tuple[float, Array]:
+def split_angle(angle: Array, late: Array | None = None) -> tuple[float, Array]:
     """An angle, rad, (N,), N > 1, in which whole turns may be missing: its mean step a sample, and what it has beyond it, (N,).
 
     ``late`` (N,): by how many steps each sample is later than an evenly spaced one.
@@ -217,7 +217,7 @@ def steady_and_swing(angle: Array, late: Array | None = None) -> tuple[float, Ar
     return mean, np.concatenate([[0.0], np.cumsum(steps - mean)]) - mean * (late - late[0])
 
 
-def best_degree(x: Iterable[Array], half: int) -> int:
+def choose_degree(x: Iterable[Array], half: int) -> int:
     """That of DEGREES with the least expected error of the second derivative of runs of samples, (N,) each.
 
     A step from one degree to the next changes the derivative by weights w, and so by s^2 |w|^2 in the mean square where there is
@@ -229,9 +229,9 @@ def best_degree(x: Iterable[Array], half: int) -> int:
     degrees = [d for d in DEGREES if d < 2 * half]
     if len(degrees) < 2:
         return DEGREES[0]
-    left = -polynomial_weights(half, 0, 0, degrees[-1])
-    left[half] += 1.0
-    kernels = [*np.diff([polynomial_weights(half, 0, 2, d) for d in degrees], axis=0), left]
+    residual = -polynomial_weights(half, 0, 0, degrees[-1])
+    residual[half] += 1.0
+    kernels = [*np.diff([polynomial_weights(half, 0, 2, d) for d in degrees], axis=0), residual]
     squares = np.zeros(len(kernels))
     for run in x:
         if len(run) >= 2 * (2 * half + 1):
@@ -246,28 +246,28 @@ def best_degree(x: Iterable[Array], half: int) -> int:
 @cache
 def polynomial_weights(half: int, at: int, order: int, degree: int) -> Array:
     """(2 half + 1,): weights of the derivative at a sample counted from the middle one (Gorry, Anal. Chem. 62 (1990) 570)."""
-    everywhere = _gram(half, np.arange(-half, half + 1.0), degree)
-    there = _gram(half, np.array([float(at)]), degree)
+    everywhere = _evaluate_gram(half, np.arange(-half, half + 1.0), degree)
+    at_sample = _evaluate_gram(half, np.array([float(at)]), degree)
     total, below, above = np.zeros(2 * half + 1), 1.0, 2.0 * half + 1.0
     for k in range(degree + 1):
-        total = total + (2 * k + 1) * below / above * everywhere[k][0] * there[k][order]
+        total = total + (2 * k + 1) * below / above * everywhere[k][0] * at_sample[k][order]
         below *= 2 * half - k
         above = float(np.cumprod([2.0 * half + k + 2 - i for i in range(k + 2)])[-1])
     total.flags.writeable = False
     return total
 
 
-def _gram(half: int, t: Array, degree: int) -> list[list[Array]]:
+def _evaluate_gram(half: int, t: Array, degree: int) -> list[list[Array]]:
     """Gram polynomials of degree 0 ... ``degree`` at t, and their first two derivatives: [degree][order]."""
     zero = np.zeros(len(t))
-    found = [[zero + 1.0, zero, zero]]
+    polynomials = [[zero + 1.0, zero, zero]]
     for k in range(1, degree + 1):
-        whole = k * (2.0 * half - k + 1)
-        a, b = (4 * k - 2) / whole, (k - 1) * (2.0 * half + k) / whole
-        one, two = found[-1], found[-2] if k > 1 else [zero] * 3
-        slopes = [one[0] * 0.0, one[0], 2.0 * one[1]]
-        found.append([a * (t * one[s] + slopes[s]) - b * two[s] for s in range(3)])
-    return found
+        divisor = k * (2.0 * half - k + 1)
+        a, b = (4 * k - 2) / divisor, (k - 1) * (2.0 * half + k) / divisor
+        last, before = polynomials[-1], polynomials[-2] if k > 1 else [zero] * 3
+        slopes = [last[0] * 0.0, last[0], 2.0 * last[1]]
+        polynomials.append([a * (t * last[s] + slopes[s]) - b * before[s] for s in range(3)])
+    return polynomials
 
 
 REACH = 64
@@ -305,8 +305,8 @@ def derive_accelerations(rates: Sequence[Array], time: Array) -> tuple[list[Arra
     rate = (len(time) - 1) / float(time[-1] - time[0])
     jitters = bool(np.max(np.abs(time - even)) * rate > JITTER)
     straight = [resample(x, time, even) for x in rates] if jitters else rates
-    made, sure = zip(*(differentiate_rate(x, rate) for x in straight), strict=True)
-    slopes = [resample(x, even, time) if jitters else x for x in made]
+    derivatives, sure = zip(*(differentiate_rate(x, rate) for x in straight), strict=True)
+    slopes = [resample(x, even, time) if jitters else x for x in derivatives]
     return slopes, np.all(sure, axis=0)
 
 
@@ -326,14 +326,14 @@ def differentiate_rate(omega: Array, rate: float) -> tuple[Array, Mask]:
 
 def resample(x: Array, time: Array, instants: Array) -> Array:
     """A series (N,) at instants that are near its own, s; every run without a gap separately, NaN where it has no sample."""
-    found = np.full(len(x), np.nan)
+    values = np.full(len(x), np.nan)
     for run in runs(np.isfinite(x)):
         size = run.stop - run.start
         degree = min(DEGREE, (size - 1) // 2 * 2 - 1)
-        found[run] = (
+        values[run] = (
             x[run] if size < 3 else interpolate.make_interp_spline(time[run], x[run], degree)(instants[run])
         )
-    return found
+    return values
 
 
 def wide_weights() -> Array:

@@ -36,16 +36,16 @@ def filter_columns(columns: Floats, taps: Array, tail: Floats | None = None, lea
     if len(taps) == 1:
         return np.asarray(columns[:, lead:] * columns.dtype.type(taps[0]))
     reach = min(before + n, len(taps))
-    own = find_nonzero(columns) if tail is None else find_nonzero(columns) | find_nonzero(tail)
+    nonzero = find_nonzero(columns) if tail is None else find_nonzero(columns) | find_nonzero(tail)
     # What goes round in the transform may fall on samples that are not wanted.
     size = fft.next_fast_len(before + n + max(0, reach - 1 - before - lead), real=True)
     gain = fft.rfft(taps[:reach].astype(columns.dtype), size)
-    result, places = np.zeros((len(columns), n - lead), dtype=columns.dtype), np.flatnonzero(own)
+    result, places = np.zeros((len(columns), n - lead), dtype=columns.dtype), np.flatnonzero(nonzero)
     for group in split_range(len(places), max(GROUP, BLOCK // size)):
-        some = places[group]
-        part = columns[some] if tail is None else np.concatenate([tail[some], columns[some]], axis=1)
+        index = places[group]
+        part = columns[index] if tail is None else np.concatenate([tail[index], columns[index]], axis=1)
         waves = fft.rfft(part, size, axis=1) * gain
-        result[some] = fft.irfft(waves, size, axis=1)[:, before + lead : before + n]
+        result[index] = fft.irfft(waves, size, axis=1)[:, before + lead : before + n]
     return result
 
 
@@ -61,16 +61,16 @@ def place_valid(rest: Array, valid: NDArray[np.bool_]) -> Array:
     return e
 
 
-def fill_gaps(columns: Array, there: NDArray[np.bool_], taps: Array, rounding: float = ROUNDING) -> Array:
-    """Columns (n, N), with samples that are not ``there`` (N,) such that the filter's output is least; before, these are zero, or near
+def fill_gaps(columns: Array, present: NDArray[np.bool_], taps: Array, rounding: float = ROUNDING) -> Array:
+    """Columns (n, N), with samples that are not ``present`` (N,) such that the filter's output is least; before, these are zero, or near
     what they will be.
 
     Where the filter whitens a noise, these are the best linear interpolation of it, and the whitened rest is what all samples that are
     there tell (missing values as further parameters: M. Bartlett, J. R. Stat. Soc. Suppl. 4, 1937). Zeros in their place are as
     loud next to a gap as the noise was before it was whitened.
     """
-    missing = np.flatnonzero(~there)
-    if not len(missing) or len(taps) == 1 or len(missing) == len(there):
+    missing = np.flatnonzero(~present)
+    if not len(missing) or len(taps) == 1 or len(missing) == len(present):
         return columns
     w = np.append(taps[: REACH - 1], np.sum(taps[REACH - 1 :]))
     # inner products of the filter's response and itself, later: the noise's inverse covariance
@@ -102,11 +102,11 @@ def convolve(x: Series, taps: Array, mode: Literal["valid", "same", "full"] = "v
     n, k = x.shape[-1], len(taps)
     if n < k and mode == "valid":
         return np.empty((*x.shape[:-1], 0), dtype=x.dtype)
-    rows, own = x.reshape(-1, n), taps[None].astype(x.real.dtype)
-    found = np.empty((len(rows), {"valid": n - k + 1, "same": n, "full": n + k - 1}[mode]), dtype=x.dtype)
-    for some in split_range(len(rows), max(1, BLOCK // n)):
-        found[some] = (oaconvolve if n > BLOCK else fftconvolve)(rows[some], own, mode, axes=-1)
-    return found.reshape(*x.shape[:-1], -1)
+    rows, kernel = x.reshape(-1, n), taps[None].astype(x.real.dtype)
+    result = np.empty((len(rows), {"valid": n - k + 1, "same": n, "full": n + k - 1}[mode]), dtype=x.dtype)
+    for group in split_range(len(rows), max(1, BLOCK // n)):
+        result[group] = (oaconvolve if n > BLOCK else fftconvolve)(rows[group], kernel, mode, axes=-1)
+    return result.reshape(*x.shape[:-1], -1)
 
 
 # samples of a column from which its step is found: sorted, they are closer together than most of the others
@@ -133,19 +133,19 @@ def find_step(x: Array) -> float | None:
     float or None
         The step in the column's unit; ``None`` if the values lie on no grid, or are too few.
     """
-    there = x[np.isfinite(x)][:LOOKED_AT]
-    values = np.unique(there)
-    if len(values) < 2 or (len(values) < FEWEST and len(there) < REPEATED * len(values)):
+    sample = x[np.isfinite(x)][:LOOKED_AT]
+    values = np.unique(sample)
+    if len(values) < 2 or (len(values) < FEWEST and len(sample) < REPEATED * len(values)):
         return None
     span = float(values[-1] - values[0])
-    apart = np.sort(np.diff(values))
-    apart = apart[apart > FINEST * span]
-    step, reach = float(apart[0]), 1.5
+    distances = np.sort(np.diff(values))
+    distances = distances[distances > FINEST * span]
+    step, reach = float(distances[0]), 1.5
     # The closest two give the step to the rounding of two values; wider distances, in whole steps, refine it.
     while True:
-        some = apart[apart <= reach * step]
-        step = float(np.sum(some) / np.sum(np.rint(some / step)))
-        if len(some) == len(apart):
+        near = distances[distances <= reach * step]
+        step = float(np.sum(near) / np.sum(np.rint(near / step)))
+        if len(near) == len(distances):
             break
         reach *= 4.0
     places = np.rint((values - values[0]) / step)

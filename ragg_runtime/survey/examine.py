@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import digest_sources, versions
+from ragg_runtime.base.files import digest_sources, list_versions
 from ragg_runtime.base.progress import one_thread
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observe_flights
@@ -49,7 +49,7 @@ BETWEEN = "::"
 def fingerprint() -> tuple[tuple[str, str], ...]:
     """(name, version) of everything that figures depend on, with a digest of the program's own text."""
     text = digest_sources("derive", "generated", "ragg_runtime")
-    return (("ragg", text[:16]), *((n, versions()[n]) for n in ("python", "numpy", "scipy", "sympy")))
+    return (("ragg", text[:16]), *((n, list_versions()[n]) for n in ("python", "numpy", "scipy", "sympy")))
 
 
 @dataclass(frozen=True)

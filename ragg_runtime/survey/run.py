@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import file_digest, locked, read_text
+from ragg_runtime.base.files import file_digest, lock, read_text
 from ragg_runtime.base.progress import remark
 from ragg_runtime.io.record import SAME_RECORD
 from ragg_runtime.survey.examine import BETWEEN, CONTENT, Job, Record, examine, expand_lines, split_line
@@ -278,7 +278,7 @@ def open_journal(
         return
     with path.open("a+b") as stream, contextlib.ExitStack() as held:
         try:
-            held.enter_context(locked(path, 0.0))
+            held.enter_context(lock(path, 0.0))
         except TimeoutError:
             remedy = "wait until it has ended, or name another file"
             raise UserError(

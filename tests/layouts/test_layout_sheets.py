@@ -97,7 +97,7 @@ def test_what_is_far_off_its_sheet_is_called_by_its_name_there() -> None:
     K1 = np.array(known.accelerometers["K1"])
     K1[1] *= 1.01
     flight = flown_by(replace(known, accelerometers={**known.accelerometers, "K1": K1}), 60.0)
-    model = derive.derived((), (), known.form, known.layout)[0]
+    model = derive.derive_model((), (), known.form, known.layout)[0]
 
     farthest = compare(model, known, [flight]).off_sheet[0]
     assert farthest.name == "K1"

@@ -60,7 +60,7 @@ def flight_of(which: str) -> tuple[Instrument, Flight]:
 
 def compared(which: str) -> comparison.Together:
     sheet, flight = flight_of(which)
-    model, _ = derive.derived((), (), sheet.form, sheet.layout)
+    model, _ = derive.derive_model((), (), sheet.form, sheet.layout)
     (found,) = comparison.compare_outputs(fit(model, sheet, observe_flights([flight], sheet)))
     return found
 
@@ -94,7 +94,7 @@ AT = 71.3
 def test_a_step_is_found_in_several_outputs(hidden: bool) -> None:
     sheet = parse_instrument(sheets.sheet(sheets.complements(), 8, sheets.FULL))
     candidates = tuple(e for e in catalogue() if e.id in ("bias-step", "gain-step"))
-    model, _ = derive.derived((), candidates, sheet.form, sheet.layout)
+    model, _ = derive.derive_model((), candidates, sheet.form, sheet.layout)
     size = [0, 0, 2e-8, 0, 0, 0, 0, 0]
     effects: EffectValues = {"gain-step": {"dK1": size, "t_step": AT}} if hidden else {}
     stage = Stage.of(fit(model, sheet, observe_flights([flown_by(sheet, 120.0, effects)], sheet)))
@@ -114,14 +114,14 @@ def compensated(
     which: str, kind: Kind
 ) -> tuple[PreparedFlights, tuple[OutputChannel, ...], dict[str, NDArray[Any]]]:
     sheet, flight = flight_of(which)
-    model, _ = derive.derived((), (), sheet.form, sheet.layout)
+    model, _ = derive.derive_model((), (), sheet.form, sheet.layout)
     p = prepare(model, sheet, [flight], kind)
     (channels,) = p.channels
     return p, channels, make_columns(sheet, channels, [c.compensate() for c in channels])
 
 
 def low_passed(d: Demodulator, x: NDArray[np.float64]) -> NDArray[np.float64]:
-    return d.low_passed(x.astype(np.complex128)).real
+    return d.low_pass(x.astype(np.complex128)).real
 
 
 def true_tensor(flight: Flight) -> NDArray[np.float64]:
@@ -189,7 +189,7 @@ def test_a_disc_that_stands_still_is_left_out_and_alone_refused() -> None:
     still = parse_instrument(
         sheets.sheet([sheets.disc("B", [sheets.accelerometer("B1", 0.0, 1)], spin=0.0)], 1)
     )
-    model, _ = derive.derived((), (), still.form, still.layout)
+    model, _ = derive.derive_model((), (), still.form, still.layout)
     _, flight = flight_of("odd")
     outputs = {"G_out": flight.outputs["G_out_B"]}
     with pytest.raises(UserError, match="no output of a spinning disc"):
@@ -200,7 +200,7 @@ def test_a_disc_that_stands_still_is_left_out_and_alone_refused() -> None:
 def contents() -> Contents:
     """A vertical disc with heights and directions beside one that stands still."""
     i = instrument("odd", sheets.FULL)
-    model, files = derive.derived((), (), i.form, i.layout)
+    model, files = derive.derive_model((), (), i.form, i.layout)
     return Contents(
         name="odd", model=model, instrument=i, p=make_vector(model, i), sources=derive.derive_plain_c(i),
         module=files["chain.py"], origin="values of model.toml",

@@ -65,4 +65,4 @@ def truth(x: Flight, d: Demodulator) -> NDArray[np.complex128]:
     """inline + i cross, Eo, that was flown over, as a demodulator lets it through."""
     c = x.channels
     g = (c["Gamma_xx"] - c["Gamma_yy"]) + 1j * c["Gamma_xy"]
-    return np.asarray(d.low_passed(g / 1e-9))
+    return np.asarray(d.low_pass(g / 1e-9))

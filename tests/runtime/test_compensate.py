@@ -132,7 +132,7 @@ def test_gradients_of_the_surveys_wavelengths_are_not_eaten() -> None:
     volts = s.instrument.scale_factor * 1e-9 * (g.real / 2 * np.sin(2 * phi) - g.imag * np.cos(2 * phi))
     more = dataclasses.replace(x, outputs={"G_out": x.outputs["G_out"] + volts})
     difference = compensated(s, more, "self", "causal")[1].gradient - c.compensate().gradient
-    passed = [c.demodulator.low_passed(w) for w in each]
+    passed = [c.demodulator.low_pass(w) for w in each]
     ok = np.isfinite(difference)
     for part in (np.real, np.imag):
         gains = np.linalg.lstsq(
@@ -193,8 +193,8 @@ def test_kernels_are_the_filters_that_they_stand_for() -> None:
     inner = slice(2500, -2500)
     expected = signal.sosfilt(sections, signal.sosfilt(sections, x)[::-1])[::-1]
     both, causal = find_demodulator("butterworth", rate), find_demodulator("causal", rate)
-    assert np.max(np.abs(both.low_passed(x + 0j).real - expected)[inner]) < 1e-8
-    assert np.max(np.abs(causal.low_passed(x + 0j).real - signal.sosfilt(sections, x))) < 1e-8
+    assert np.max(np.abs(both.low_pass(x + 0j).real - expected)[inner]) < 1e-8
+    assert np.max(np.abs(causal.low_pass(x + 0j).real - signal.sosfilt(sections, x))) < 1e-8
     assert causal.ahead == 0
     b, a = signal.butter(ORDER, 2 * np.pi * CORNER, analog=True)
     w = 2 * np.pi * np.array([1e-4, 2e-4])

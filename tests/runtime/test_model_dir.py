@@ -21,7 +21,7 @@ import derive.effects as derive_effects
 from derive import pipeline
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import locked
+from ragg_runtime.base.files import lock
 from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.model import chain as compiler
 from ragg_runtime.model import derive
@@ -209,7 +209,7 @@ def test_messages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(UserError, match="exists already"):
         make(tmp_path, 1)
     monkeypatch.setattr(md, "_PATIENCE", 0.05)
-    with locked(made.path, 0.0), pytest.raises(UserError, match="another command"):
+    with lock(made.path, 0.0), pytest.raises(UserError, match="another command"):
         change(made, 2)
     whole = {"action": "add", "effect": "lag", "time": "now"}
     odd = ({"before": 3}, {"before": {"calibrated": [1]}}, {"after": {"rms_Eo": "many"}}, {"flights": ["a"]})
@@ -232,7 +232,7 @@ def mine(identifier: str) -> str:
 
 def forget() -> None:
     """What this process has derived and loaded so far."""
-    for known in (derive.derived, derive._load_installed, derive._execute_files):
+    for known in (derive.derive_model, derive._load_installed, derive._execute_files):
         known.cache_clear()
 
 
@@ -380,11 +380,11 @@ def test_a_request_depends_on_all_that_is_derived(tmp_path: Path, monkeypatch: p
         f"[{line.replace('ug/g^2', 'mg/g^2')}]",
         f"[{line.replace('unit =', 'shared = true, unit =')}]",
     ]
-    found = {derive.request(parse_instrument(text.replace("effects = []", f"effects = {e}"))) for e in lists}
+    found = {derive.identify(parse_instrument(text.replace("effects = []", f"effects = {e}"))) for e in lists}
     monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path))
     for source in ("# 1\n", "# 2\n"):
         (tmp_path / "a.py").write_text(source)
-        found.add(derive.request(parse_instrument(text)))
+        found.add(derive.identify(parse_instrument(text)))
     assert len(found) == len(lists) + 2
 
 
@@ -432,24 +432,24 @@ def test_without_a_compiler_numpy_serves_and_says_so_once(monkeypatch, tmp_path,
 
 @needs_compiler
 def test_library_is_made_once_and_anew_when_anything_changes(tmp_path, monkeypatch) -> None:
-    first = compiler.build(ONE, tmp_path)
+    first = compiler.compile_library(ONE, tmp_path)
     made = first.stat().st_mtime_ns
-    assert compiler.build(ONE, tmp_path) == first
+    assert compiler.compile_library(ONE, tmp_path) == first
     assert first.stat().st_mtime_ns == made
-    assert compiler.build({"one.c": "int one(void) { return 2; }\n"}, tmp_path) != first
+    assert compiler.compile_library({"one.c": "int one(void) { return 2; }\n"}, tmp_path) != first
     monkeypatch.setenv("CC", f"{compiler.find_compiler()[0]} -DX=1")
-    assert compiler.build(ONE, tmp_path) != first
+    assert compiler.compile_library(ONE, tmp_path) != first
     monkeypatch.delenv("CC")
     first.write_bytes(first.read_bytes()[:100])  # damaged: refused once, then made anew
     with pytest.raises(compiler.BuildError, match="cannot be loaded"):
-        compiler.load(compiler.build(ONE, tmp_path))
-    compiler.load(compiler.build(ONE, tmp_path))
+        compiler.load(compiler.compile_library(ONE, tmp_path))
+    compiler.load(compiler.compile_library(ONE, tmp_path))
 
 
 @needs_compiler
 def test_a_cache_that_others_can_write_to_is_not_used(tmp_path: Path) -> None:
     tmp_path.chmod(0o777)
-    made = compiler.build(ONE, tmp_path)
+    made = compiler.compile_library(ONE, tmp_path)
     assert made.parent != tmp_path
     assert stat.S_IMODE(made.parent.stat().st_mode) == 0o700
     assert list(tmp_path.iterdir()) == []
@@ -468,6 +468,6 @@ def test_a_compiler_that_hangs_or_fails_is_one_message(tmp_path: Path, monkeypat
         monkeypatch.setenv("CC", cc)
         expected = "does not answer within 1 s" if cc == str(script) else None
         with pytest.raises(compiler.BuildError, match=expected):
-            compiler.build(ONE, tmp_path / "cache")
+            compiler.compile_library(ONE, tmp_path / "cache")
     assert time.monotonic() - start < 20
     assert not list((tmp_path / "cache").glob(".*so"))

@@ -267,7 +267,7 @@ def test_what_never_ends_or_exceeds_all_numbers_is_refused(asked, said: str, tmp
 def test_lines_tell_share_and_time_left(passes, pause, last, monkeypatch, capsys) -> None:
     now = [100.0]
     monkeypatch.setattr(time, "monotonic", lambda: now[0])
-    with progress.shown("diagnose", 1000):
+    with progress.show_progress("diagnose", 1000):
         for share in passes:
             now[0] += pause
             progress.step(progress.PASSES["diagnose"] * 1000 * share)
