@@ -69,29 +69,29 @@ def count_directions(f: Fitted) -> tuple[int, int]:
 def list_parameters(f: Fitted) -> list[dict[str, Any]]:
     """Every fitted parameter with its prior, as in JSON."""
     c = f.calibration
-    values, found = list_parameter_values(c.columns, c.in_scales, c.covariance), []
+    values, entries = list_parameter_values(c.columns, c.in_scales, c.covariance), []
     for q, column, off, variance in zip(values, c.columns, f.to_nominal, np.diag(c.covariance), strict=True):
         factor = column.scale / column.unit_factor
-        own = {"effect": column.effect, "sheet": q.value + float(off) * factor, "sheet_sigma": factor}
-        found.append({**q.as_json(), **own, "said_by": "record" if variance < LEARNED**2 else "sheet"})
-    return found
+        origin = {"effect": column.effect, "sheet": q.value + float(off) * factor, "sheet_sigma": factor}
+        entries.append({**q.as_json(), **origin, "said_by": "record" if variance < LEARNED**2 else "sheet"})
+    return entries
 
 
 def list_combinations(f: Fitted) -> list[dict[str, Any]]:
     """What the record determines: combinations of accelerometers', and single values, as JSON has them."""
     columns, values, root = f.calibration.columns, f.calibration.in_scales, invert_root(information(f))
     together = find_combinations(f.model, f.calibration.p, columns, lambda w: float(np.linalg.norm(w @ root)))
-    found = [(name, w, unit) for name, unit, w, _ in together]
+    combinations = [(name, w, unit) for name, unit, w, _ in together]
     single = np.linalg.norm(root, axis=1) < SEEN
     for name in dict.fromkeys(c.name for c in columns):
         places = [k for k, c in enumerate(columns) if c.name == name]
         if len(places) != f.model.layout.size or np.all(single[places]):
             for k, c in ((k, columns[k]) for k in places if single[k]):
                 label = own_name(c) if c.accelerometer is None else f"{own_name(c)}[{c.accelerometer}]"
-                found.append((label, c.scale / c.unit_factor * np.eye(len(columns))[k], c.unit))
+                combinations.append((label, c.scale / c.unit_factor * np.eye(len(columns))[k], c.unit))
     return [
         {"name": name, "value": float(w @ values), "std": float(np.linalg.norm(w @ root)), "unit": unit}
-        for name, w, unit in found
+        for name, w, unit in combinations
     ]
 
 
@@ -104,8 +104,8 @@ def calibrate(model: Model, instrument: Instrument, flights: Sequence[Flight]) -
         If the flights are not of this instrument.
     """
     f = fit(model, instrument, observe_flights(flights, instrument))
-    whole, held_out, nominal = comparison.score_with_nominal(f, [np.zeros(f.size), f.fit_held_out()])
-    return Calibrated(fitted=f, nominal=nominal.whole, error=whole.whole, holdout=held_out.held_out)
+    fit_scores, held_out, nominal = comparison.score_with_nominal(f, [np.zeros(f.size), f.fit_held_out()])
+    return Calibrated(fitted=f, nominal=nominal.whole, error=fit_scores.whole, holdout=held_out.held_out)
 
 
 def make_saved(c: Calibrated, flights: Sequence[Flight], time: str) -> Saved:
@@ -135,14 +135,14 @@ def make_saved(c: Calibrated, flights: Sequence[Flight], time: str) -> Saved:
 
 def find_ranges(flights: Sequence[Flight]) -> Mapping[str, tuple[float, float]]:
     """Channel -> its range, SI, over the valid samples of all flights that have it; ``time`` since the first sample."""
-    found: dict[str, tuple[float, float]] = {}
+    ranges: dict[str, tuple[float, float]] = {}
     for x in flights:
         for name, values in {"time": x.time - x.time[0], **x.channels}.items():
             y = values[x.valid & np.isfinite(values)]
             if len(y):
-                low, high = found.get(name, (np.inf, -np.inf))
-                found[name] = min(low, float(np.min(y))), max(high, float(np.max(y)))
-    return found
+                low, high = ranges.get(name, (np.inf, -np.inf))
+                ranges[name] = min(low, float(np.min(y))), max(high, float(np.max(y)))
+    return ranges
 
 
 # --- results of a fit in scales: units of the prior widths of its parameters
@@ -170,11 +170,11 @@ def move_parameters(c: Calibration, step: Array | float) -> Array:
     return p
 
 
-def fit_some(f: Fitted, r_factors: Sequence[Array]) -> tuple[Array, Array]:
+def fit_r_factors(f: Fitted, r_factors: Sequence[Array]) -> tuple[Array, Array]:
     """The posterior of some R factors [base | residual] and the prior: the step (n,) from here, and a root (n, n) of its covariance."""
-    whole = add_prior(join(r_factors), range(f.n_base), f.to_nominal)
-    R = whole[:-1, :-1]
-    return Linear(whole).step, invert_root(R)
+    posterior = add_prior(join(r_factors), range(f.n_base), f.to_nominal)
+    R = posterior[:-1, :-1]
+    return Linear(posterior).step, invert_root(R)
 
 
 # --- calibration.json of a model directory: the calibration that was kept ---
@@ -217,9 +217,9 @@ class Saved:
 
     def as_json(self) -> dict[str, Any]:
         """As in the file."""
-        kept = ("time", "converged", "model", "values", "sheet", "validity", "flights", "error")
+        fields = ("time", "converged", "model", "values", "sheet", "validity", "flights", "error")
         return {
-            **{name: getattr(self, name) for name in kept},
+            **{name: getattr(self, name) for name in fields},
             "fitted": [
                 {"name": c.name, "accelerometer": c.accelerometer, "scale": c.scale} for c in self.columns
             ],
@@ -228,19 +228,19 @@ class Saved:
 
     def find_oddities(self, model: Model, instrument: Instrument) -> list[str]:
         """What is odd about the calibration, in sentences."""
-        found = []
+        odd = []
         if self.model["derivation"] != model.digest:
-            found.append("the model has been derived anew since the calibration was saved")
+            odd.append("the model has been derived anew since the calibration was saved")
         if not self.converged:
-            found.append("the saved calibration had not converged")
+            odd.append("the saved calibration had not converged")
         if not np.array_equal(np.concatenate([*self.sheet.values()]), make_vector(model, instrument)):
-            found.append("model.toml has changed since the calibration was saved; the saved values are used")
+            odd.append("model.toml has changed since the calibration was saved; the saved values are used")
         if "balancing-loop" in self.model["effects"]:
-            found.append(
+            odd.append(
                 "balancing loops change scale factors or second-order coefficients during every flight: the saved calibration holds only "
                 "with their recorded currents"
             )
-        return found
+        return odd
 
 
 def _refuse(text: str) -> float:
@@ -255,27 +255,27 @@ def saved_calibration(m: Loaded) -> Saved:
     UserError
         If there is none, if it is damaged, or of another model.
     """
-    kept, where = m.directory.calibration, m.directory.path / CALIBRATION
-    again = f"calibrate: ragg calibrate {where.parent} FLIGHT... --save"
-    if kept is None:
-        raise UserError("the model has no saved calibration", where=where.parent, remedy=again)
-    refuse = partial(UserError, where=where, remedy=again)
+    text, where = m.directory.calibration, m.directory.path / CALIBRATION
+    remedy = f"calibrate: ragg calibrate {where.parent} FLIGHT... --save"
+    if text is None:
+        raise UserError("the model has no saved calibration", where=where.parent, remedy=remedy)
+    refuse = partial(UserError, where=where, remedy=remedy)
     try:
-        return _read(json.loads(kept, parse_constant=_refuse), m, refuse)
+        return _parse_saved(json.loads(text, parse_constant=_refuse), m, refuse)
     except (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
-        found = f"no {error}" if isinstance(error, KeyError) else str(error)[:200]
-        raise refuse("the saved calibration is damaged", found=found) from None
+        reason = f"no {error}" if isinstance(error, KeyError) else str(error)[:200]
+        raise refuse("the saved calibration is damaged", found=reason) from None
 
 
-def _read(e: Mapping[str, Any], m: Loaded, refuse: Callable[..., UserError]) -> Saved:
+def _parse_saved(e: Mapping[str, Any], m: Loaded, refuse: Callable[..., UserError]) -> Saved:
     """What was kept as a calibration of the present model; what speaks against it raises the error that ``refuse`` makes."""
     model, instrument = m.model, m.instrument
     effects, form = [x.id for x in model.effects], instrument.form.words()
-    of, layout = e["model"], [(name, len(x)) for name, x in e["values"].items()]
-    if (of["effects"], of["form"], layout) != (effects, form, [*model.chain.PARAMETERS]):
+    description, layout = e["model"], [(name, len(x)) for name, x in e["values"].items()]
+    if (description["effects"], description["form"], layout) != (effects, form, [*model.chain.PARAMETERS]):
         raise refuse(
             "the saved calibration belongs to another model",
-            found=f"{of['form']}, effects {', '.join(of['effects']) or 'none'}, made {e['time']}",
+            found=f"{description['form']}, effects {', '.join(description['effects']) or 'none'}, made {e['time']}",
             expected=f"{form}, effects {', '.join(effects) or 'none'}",
         )
     columns, places = zip(*list_base_columns(model, instrument), strict=True)
@@ -288,7 +288,7 @@ def _read(e: Mapping[str, Any], m: Loaded, refuse: Callable[..., UserError]) -> 
     saved = Saved(
         time=str(e["time"]),
         converged=bool(e["converged"]),
-        model=of,
+        model=description,
         values=e["values"],
         sheet=e["sheet"],
         columns=columns,
@@ -299,10 +299,10 @@ def _read(e: Mapping[str, Any], m: Loaded, refuse: Callable[..., UserError]) -> 
         error=dict(e["error"]),
     )
     nominal = make_vector(model, instrument)
-    given = np.setdiff1d(
+    fixed = np.setdiff1d(
         np.arange(len(nominal)), [k for name, k in zip(names, places, strict=True) if name in scales]
     )
-    if not np.array_equal(saved.p[given], nominal[given]):
+    if not np.array_equal(saved.p[fixed], nominal[fixed]):
         what = "model.toml was changed since the calibration was saved: values that are not fitted differ"
         raise refuse(what, found=f"a calibration made {saved.time}")
     if not scale_factor(model, saved.p) > 0.0:
@@ -316,14 +316,14 @@ def _rescale(
     """The root of the information, of which the rows of the upper triangle were kept in these scales, in those of the present columns; one
     that was not fitted then is as sure as the sheet.
     """
-    R, kept = np.zeros((len(scales), len(scales))), list(scales)
+    R, labels = np.zeros((len(scales), len(scales))), list(scales)
     R[np.triu_indices(len(scales))] = np.concatenate(upper)
     if not np.min(np.abs(np.diag(R)), initial=np.inf) > LEAST:
         raise ValueError("the square root of the information is singular")
     rows, sheet = np.zeros((len(scales), len(columns))), np.zeros((len(columns), len(columns)))
     for n, c in enumerate(columns):
         if (name := (c.name, c.accelerometer)) in scales:
-            rows[:, n] = R[:, kept.index(name)] * (c.scale / scales[name])
+            rows[:, n] = R[:, labels.index(name)] * (c.scale / scales[name])
         else:
             sheet[n, n] = 1.0
     if sheet.any() or np.tril(rows, -1).any():

@@ -113,35 +113,35 @@ class OutputChannel(ModelledOutput):
 
     def propagate_parameters(self, g: Complex) -> Array:
         """(2, N) Eo^2: variance of inline and cross by the parameters, beside a gradient (N,), Eo."""
-        few = max(1, int(self.demodulator.rate // FINE))
-        count = len(g) // few
-        along = np.empty(
+        step = max(1, int(self.demodulator.rate // FINE))
+        count = len(g) // step
+        deviations = np.empty(
             (self.blocks[0].root.shape[1], 2, count)
         )  # independent steps of one standard deviation
-        for some in split_range(count, ROWS // few):
-            change = self._change_by_parameters(slice(some.start * few, some.stop * few), g, few)
+        for means in split_range(count, ROWS // step):
+            change = self._change_by_parameters(slice(means.start * step, means.stop * step), g, step)
             for b in self.blocks:
                 # a mean that two blocks share is that of the first
-                first = max(-(-b.rows.start // few), some.start)
-                last = min(-(-b.rows.stop // few), some.stop)
+                first = max(-(-b.rows.start // step), means.start)
+                last = min(-(-b.rows.stop // step), means.stop)
                 if first < last:
-                    own = change[..., first - some.start : last - some.start]
-                    along[..., first:last] = np.tensordot(b.root.T, own, 1)
-            progress.step(float(few * (some.stop - some.start)))
-        low_pass = find_demodulator(self.demodulator.name, self.demodulator.rate / few)
-        total = sum((low_pass.low_pass(x) ** 2 for x in along), np.zeros((2, count)))
-        centres = few * np.arange(count) + (few - 1) / 2  # the variance is linear between them
+                    changes = change[..., first - means.start : last - means.start]
+                    deviations[..., first:last] = np.tensordot(b.root.T, changes, 1)
+            progress.step(float(step * (means.stop - means.start)))
+        low_pass = find_demodulator(self.demodulator.name, self.demodulator.rate / step)
+        total = sum((low_pass.low_pass(x) ** 2 for x in deviations), np.zeros((2, count)))
+        centres = step * np.arange(count) + (step - 1) / 2  # the variance is linear between them
         return np.stack([np.interp(np.arange(len(g)), centres, x) for x in total])
 
-    def _change_by_parameters(self, rows: slice, g: Complex, few: int) -> Array:
-        """(n, 2, rows / few) Eo: inline and cross by the fitted parameters, each times its scale, before the low-pass; means of ``few``."""
+    def _change_by_parameters(self, rows: slice, g: Complex, step: int) -> Array:
+        """(n, 2, rows / step) Eo: inline and cross by each parameter's scale, before the low-pass; means of ``step`` samples."""
         r, x, moved = self.make_inputs(rows, g)
-        o, count = self.observation, len(r.time) // few
+        o, count = self.observation, len(r.time) // step
         J = np.zeros((len(self.columns), len(o.series), len(r.time)))
-        where, p = (r.time, x, r.phi), self.about - moved
-        put_derivatives(J, self.model.chain, self.columns, where, p, o.recorded, o.output)
-        mixer = np.stack([self.mixer[rows].real, self.mixer[rows].imag]).reshape(2, count, few) / few
-        return np.asarray(np.einsum("wcf,ncf->nwc", mixer, combine_output(o, J).reshape(len(J), count, few)))
+        inputs, p = (r.time, x, r.phi), self.about - moved
+        put_derivatives(J, self.model.chain, self.columns, inputs, p, o.recorded, o.output)
+        mixer = np.stack([self.mixer[rows].real, self.mixer[rows].imag]).reshape(2, count, step) / step
+        return np.asarray(np.einsum("wcf,ncf->nwc", mixer, combine_output(o, J).reshape(len(J), count, step)))
 
     def flag_samples(self) -> NDArray[np.int64]:
         """(N,): bits of the samples."""

@@ -15,7 +15,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.progress import one_thread
 from ragg_runtime.compensation.calibrate import (
     Saved,
-    fit_some,
+    fit_r_factors,
     information,
     invert_root,
     list_base_r_factors,
@@ -106,9 +106,9 @@ class Compensation:
 
         Each begins and ends where there are values, which have the digits that their uncertainty warrants, and one more.
         """
-        parts = [_with_values(s) for s in self.series]
-        whole = {n: np.concatenate([s[n] for s in parts]) for n in parts[0]}
-        columns = [DataColumn(n, _unit_of(n), _round(n, whole)) for n in whole]
+        parts = [_trim_ends(s) for s in self.series]
+        joined = {n: np.concatenate([s[n] for s in parts]) for n in parts[0]}
+        columns = [DataColumn(n, _unit_of(n), _round(n, joined)) for n in joined]
         write_tables(Path(path), [DataTable(tuple(columns))])
 
 
@@ -118,13 +118,13 @@ def _unit_of(column: str) -> str:
     return "1" if column == "flight" or column.startswith(("quality", "closure")) else "Eo"
 
 
-def _with_values(series: Mapping[str, NDArray[Any]]) -> Mapping[str, NDArray[Any]]:
+def _trim_ends(series: Mapping[str, NDArray[Any]]) -> Mapping[str, NDArray[Any]]:
     """The rows from the first to the last in which a channel has a value; all if none has."""
     stds = [x for n, x in series.items() if n.endswith("_std")]
-    there = np.flatnonzero(np.any(np.isfinite(stds), axis=0))
-    if not len(there):
+    rows = np.flatnonzero(np.any(np.isfinite(stds), axis=0))
+    if not len(rows):
         return series
-    return {n: x[there[0] : there[-1] + 1] for n, x in series.items()}
+    return {n: x[rows[0] : rows[-1] + 1] for n, x in series.items()}
 
 
 def _round(name: str, columns: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
@@ -133,10 +133,10 @@ def _round(name: str, columns: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
     if name.startswith("closure"):
         return np.round(x, 2)
     std = columns.get(name if name.endswith("_std") else f"{name}_std", np.zeros(0))
-    known = std[np.isfinite(std) & (std > 0.0)]
-    if not len(known):
+    positive = std[np.isfinite(std) & (std > 0.0)]
+    if not len(positive):
         return x
-    digits = 1 - int(np.floor(np.log10(np.min(known))))
+    digits = 1 - int(np.floor(np.log10(np.min(positive))))
     return np.round(x, digits + name.endswith("_std"))
 
 
@@ -177,7 +177,7 @@ def prepare(
         raise UserError("there is no such calibration", found=repr(kind), expected=", ".join(KINDS))
     flights = tuple(leave_out_gradients(x) for x in flights)
     observations = observe_flights(flights, instrument, whole=True)
-    seeing = find_seeing(instrument, observations)
+    seeing = find_sensitive(instrument, observations)
     change: CalibrationChange | None = None
     if saved is not None:
         c, root = make_calibration(saved, model, instrument, observations), invert_root(saved.information)
@@ -203,14 +203,14 @@ def prepare(
 
 def follow_others(f: Fitted, o: Observation) -> Iterator[Part]:
     """The blocks of time of an observation, each with the parameters that all others give."""
-    every = [
+    r_factors = [
         ((x.flight, b), T)
         for k, x in enumerate(f.observations)
         for b, T in enumerate(list_base_r_factors(f, k))
     ]
     edges = make_block_edges(len(o.record.time)).tolist()
     for b, (first, last) in enumerate(pairwise(edges)):
-        yield slice(first, last), *fit_some(f, [T for place, T in every if place != (o.flight, b)])
+        yield slice(first, last), *fit_r_factors(f, [T for place, T in r_factors if place != (o.flight, b)])
 
 
 def _make_channel(
@@ -225,19 +225,19 @@ def _make_channel(
 ) -> OutputChannel:
     """An observation ready to be compensated; UserError if the flight is too short for the demodulator."""
     d = find_demodulator(demodulator, o.record.rate)
-    least = sum(d.settling) + 1
-    if len(flight.time) < least:
+    needed = sum(d.settling) + 1
+    if len(flight.time) < needed:
         raise UserError(
             "the record is too short for the demodulator",
             where=flight.path or flight.name,
             found=f"{flight.duration:.4g} s",
-            expected=f"at least {least / d.rate:.3g} s for {d.name}",
+            expected=f"at least {needed / d.rate:.3g} s for {d.name}",
             remedy="give a longer recording, or choose another --demodulator",
         )
     recorded: Complex | None = None
     if o.recorded.demodulated:  # by its recorder: put right for the calibrated scale factor
-        known: Complex = flight.outputs["inline"] + 1j * flight.outputs["cross"]
-        recorded = known * (instrument.scale_factor / scale_factor(model, c.p, o.place))
+        gradient: Complex = flight.outputs["inline"] + 1j * flight.outputs["cross"]
+        recorded = gradient * (instrument.scale_factor / scale_factor(model, c.p, o.place))
     return OutputChannel(
         model=model,
         observation=o,
@@ -250,12 +250,12 @@ def _make_channel(
     )
 
 
-def find_seeing(instrument: Instrument, observations: Sequence[Observation]) -> tuple[int, ...]:
+def find_sensitive(instrument: Instrument, observations: Sequence[Observation]) -> tuple[int, ...]:
     """Those that see a gradient on a turning disc; UserError if there is none."""
     a = instrument.accelerometers
     k1, R = a["k_VI"] * a["K1"], instrument.radii + a["dR"]
-    found = tuple(n for n, o in enumerate(observations) if o.record.turning and sees(o.output, k1, R))
-    if observations and not found:
+    positions = tuple(n for n, o in enumerate(observations) if o.record.turning and sees(o.output, k1, R))
+    if observations and not positions:
         raise UserError(
             "there is no gradient to compensate: no output of a spinning disc is sensitive to it",
             where=instrument.path,
@@ -263,7 +263,7 @@ def find_seeing(instrument: Instrument, observations: Sequence[Observation]) -> 
             expected="a turning disc with accelerometers whose sum does not cancel the gradient",
             remedy="use calibrate and compare for such an instrument",
         )
-    return found
+    return positions
 
 
 # --- descriptions ------------------------------------------------------------------------------
@@ -272,23 +272,23 @@ def find_seeing(instrument: Instrument, observations: Sequence[Observation]) -> 
 def describe_channel(c: OutputChannel, x: Compensated, instrument: Instrument) -> dict[str, Any]:
     """What was done and how good it is, for JSON."""
     o, d = c.observation, c.demodulator
-    there = np.isfinite(x.gradient.real)
-    rms = np.sqrt(np.mean(x.parameters[:, there] ** 2, axis=1)) if there.any() else np.full(2, np.nan)
+    has_value = np.isfinite(x.gradient.real)
+    rms = np.sqrt(np.mean(x.parameters[:, has_value] ** 2, axis=1)) if has_value.any() else np.full(2, np.nan)
     sheet = make_vector(c.model, instrument)
-    left = compute_residual(c.model, o, sheet, c.noise)
-    nominal = measure_error(left, o.record, c.find_scale_factor(c.about)).as_json()
-    every = max(1, int(d.rate))  # the channels hold nothing above half a hertz
+    residual = compute_residual(c.model, o, sheet, c.noise)
+    nominal = measure_error(residual, o.record, c.find_scale_factor(c.about)).as_json()
+    step = max(1, int(d.rate))  # the channels hold nothing above half a hertz
     return {
         "flight": o.flight_name,
         "output": o.output.name,
-        "samples": len(there),
-        "values": int(np.sum(there)),
+        "samples": len(has_value),
+        "values": int(np.sum(has_value)),
         "good": int(np.sum(x.quality == 0)),
         "quality": {q.name: int(np.count_nonzero(x.quality & q)) for q in Quality},
         "density": {
             "band_Hz": list(BAND),
             "before": {k: v for k, v in nominal.items() if k.endswith("rtHz")},
-            "after": measure_density(x.gradient[::every], d.rate / every),
+            "after": measure_density(x.gradient[::step], d.rate / step),
             "noise": name_both(c.noise_std / np.sqrt(d.bandwidth), "Eo_per_rtHz"),
         },
         "std": {"noise": name_both(c.noise_std), "parameters": name_both(rms)},
@@ -308,8 +308,8 @@ def measure_density(g: Complex, rate: float) -> dict[str, float | None]:
     n, power, samples = int(WINDOW * rate), np.zeros(2), 0
     for run in runs(np.isfinite(g.real), n):
         x = g[run]
-        both = np.stack([x.real, x.imag])
-        f, density = signal.welch(both, rate, nperseg=n, detrend="linear")  # type: ignore[call-overload]
+        channels = np.stack([x.real, x.imag])
+        f, density = signal.welch(channels, rate, nperseg=n, detrend="linear")  # type: ignore[call-overload]
         power += len(x) * np.mean(density[:, (f >= BAND[0]) & (f <= BAND[1])], axis=1)
         samples += len(x)
     mean = np.sqrt(power / samples) if samples else np.full(2, np.nan)
@@ -339,15 +339,15 @@ def list_contributions(c: OutputChannel, instrument: Instrument) -> list[dict[st
     p, count = c.blocks[0].p, 0
     totals: dict[tuple[str, str | None], Array] = {}
     groups = [x for x in list_groups(c.model, instrument, p) if not np.array_equal(x[-1], p)]
-    most = max(ROWS, 4 * len(c.demodulator.taps))
-    for rows in spread(divide_into_segments(len(c.observation.record.time), most), 2):
-        some = slice(0, rows.stop - rows.start)
-        part = replace(c, observation=c.observation.part(rows), blocks=(Block(some, p),))
-        good, whole = (part.flag_samples() & NO_VALUE) == 0, part.predict()
+    longest = max(ROWS, 4 * len(c.demodulator.taps))
+    for rows in spread(divide_into_segments(len(c.observation.record.time), longest), 2):
+        samples = slice(0, rows.stop - rows.start)
+        part = replace(c, observation=c.observation.part(rows), blocks=(Block(samples, p),))
+        good, total = (part.flag_samples() & NO_VALUE) == 0, part.predict()
         count += int(np.sum(good))
         for name, effect, without in [("everything", None, None), *groups]:
-            rest = 0.0 if without is None else replace(part, blocks=(Block(some, without),)).predict()
-            g = part.demodulate(whole - rest)[good]
+            rest = 0.0 if without is None else replace(part, blocks=(Block(samples, without),)).predict()
+            g = part.demodulate(total - rest)[good]
             squares = np.array([np.sum(g.real**2), np.sum(g.imag**2)])
             totals[name, effect] = totals.get((name, effect), 0.0) + squares
     ordered = sorted(totals.items(), key=lambda x: -np.sum(x[1]))
@@ -378,11 +378,11 @@ def compensate(m: Loaded, flights: Sequence[Flight], kind: Kind, demodulator: st
     _require_alike(p)
     series, entries = [], []
     for k, (flight, channels) in enumerate(zip(p.flights, p.channels, strict=True), 1):
-        found = [c.compensate() for c in channels]
-        columns = make_columns(instrument, channels, found)
+        compensated = [c.compensate() for c in channels]
+        columns = make_columns(instrument, channels, compensated)
         number = {"flight": np.full(len(flight.time), k, dtype=np.int64)} if len(p.flights) > 1 else {}
         series.append({"time": np.array(flight.time), **columns, **number})
-        entries += [describe_channel(c, x, instrument) for c, x in zip(channels, found, strict=True)]
+        entries += [describe_channel(c, x, instrument) for c, x in zip(channels, compensated, strict=True)]
     d = p.channels[0][0].demodulator
     result = {
         "calibration": kind,
@@ -408,12 +408,12 @@ def compensate(m: Loaded, flights: Sequence[Flight], kind: Kind, demodulator: st
 def _require_alike(p: PreparedFlights) -> None:
     """UserError unless all flights have the same outputs."""
     names = [[c.observation.output.name for c in channels] for channels in p.channels]
-    for flight, own in zip(p.flights, names, strict=True):
-        if own != names[0]:
+    for flight, outputs in zip(p.flights, names, strict=True):
+        if outputs != names[0]:
             raise UserError(
                 "the flights do not have the same outputs",
                 where=flight.path or flight.name,
-                found=", ".join(own) or "none that is sensitive to the gradient",
+                found=", ".join(outputs) or "none that is sensitive to the gradient",
                 expected=", ".join(names[0]),
                 remedy="compensate them one by one",
             )
@@ -425,21 +425,21 @@ def make_columns(
     """The columns (N,) of a flight: of every output, with an ending where there are several, and the tensor where they determine it."""
     names = instrument.layout.output_names
     endings = dict(zip(names, column_endings(names), strict=True))
-    found: dict[str, NDArray[Any]] = {}
+    columns: dict[str, NDArray[Any]] = {}
     for c, x in zip(channels, series, strict=True):
         end = endings[c.observation.output.name]
-        found |= {f"inline{end}": x.gradient.real, f"cross{end}": x.gradient.imag}
-        found |= {f"inline{end}_std": x.std[0], f"cross{end}_std": x.std[1], f"quality{end}": x.quality}
+        columns |= {f"inline{end}": x.gradient.real, f"cross{end}": x.gradient.imag}
+        columns |= {f"inline{end}_std": x.std[0], f"cross{end}_std": x.std[1], f"quality{end}": x.quality}
     discs = [instrument.layout.discs[c.observation.output.disc] for c in channels]
     noise = np.array([s for c in channels for s in c.noise_std])
     try:
         by_channels = tensor([d.across for d in discs], np.eye(2 * len(channels)), noise)
     except UserError:  # the outputs do not determine it
-        return found
-    seen = np.concatenate([[x.gradient.real, x.gradient.imag] for x in series])
+        return columns
+    gradients = np.concatenate([[x.gradient.real, x.gradient.imag] for x in series])
     std = np.sqrt(by_channels.gamma**2 @ np.concatenate([x.std for x in series]) ** 2)
-    found |= {f"Gamma_{k}": v for k, v in zip(COMPONENTS, by_channels.gamma @ seen, strict=True)}
-    found |= {f"Gamma_{k}_std": v for k, v in zip(COMPONENTS, std, strict=True)}
-    checks = by_channels.closure @ seen
-    found |= {"closure" if len(checks) == 1 else f"closure_{k}": v for k, v in enumerate(checks, 1)}
-    return found
+    columns |= {f"Gamma_{k}": v for k, v in zip(COMPONENTS, by_channels.gamma @ gradients, strict=True)}
+    columns |= {f"Gamma_{k}_std": v for k, v in zip(COMPONENTS, std, strict=True)}
+    checks = by_channels.closure @ gradients
+    columns |= {"closure" if len(checks) == 1 else f"closure_{k}": v for k, v in enumerate(checks, 1)}
+    return columns

@@ -82,20 +82,20 @@ class Drift:
         frequency. From there a walk is off by ``WITHIN`` of its variance over a block.
         """
         r = self.f.flights[flight].record
-        own = [k for k, e in enumerate(self.epochs) if e.flight == flight]
-        middles = [self.epochs[k].middle for k in own]
+        indices = [k for k, e in enumerate(self.epochs) if e.flight == flight]
+        middles = [self.epochs[k].middle for k in indices]
         walk = np.array([self.rates.get(q.name, 0.0) for q in self.f.calibration.columns])
-        for k in own:
+        for k in indices:
             rows = self.epochs[k].rows
             count = rows.stop - rows.start
             off = np.diag(walk * np.sqrt(WITHIN * count / r.rate / HOUR))[:, walk > 0]
             root = np.hstack([self.roots[k], off])
-            few = max(1, int(r.rate / (STAIRS * abs(r.spin_frequency)))) if self.rates else count
-            for some in split_range(count, few):
-                first, stop = rows.start + some.start, rows.start + some.stop
+            length = max(1, int(r.rate / (STAIRS * abs(r.spin_frequency)))) if self.rates else count
+            for stair in split_range(count, length):
+                first, stop = rows.start + stair.start, rows.start + stair.stop
                 middle = float(r.time[first] + r.time[stop - 1]) / 2
-                before, share = divmod(float(np.interp(middle, middles, range(len(own)))), 1.0)
-                a, b = own[int(before)], own[min(int(before) + 1, len(own) - 1)]
+                before, share = divmod(float(np.interp(middle, middles, range(len(indices)))), 1.0)
+                a, b = indices[int(before)], indices[min(int(before) + 1, len(indices) - 1)]
                 yield slice(first, stop), (1.0 - share) * self.steps[a] + share * self.steps[b], root
 
     def as_json(self) -> dict[str, Any]:
@@ -104,9 +104,9 @@ class Drift:
         columns, values = self.f.calibration.columns, self.f.calibration.in_scales + self.steps
         rates, states = [], []
         for name, rate in self.rates.items():
-            own = [q for q in columns if q.name == name]
-            per_root_hour = rate * max(q.scale / q.unit_factor for q in own)
-            rates.append({"name": name, "per_root_hour": per_root_hour, "unit": own[0].unit})
+            kind = [q for q in columns if q.name == name]
+            per_root_hour = rate * max(q.scale / q.unit_factor for q in kind)
+            rates.append({"name": name, "per_root_hour": per_root_hour, "unit": kind[0].unit})
         for n, q in ((n, q) for n, q in enumerate(columns) if q.name in self.rates):
             factor = q.scale / q.unit_factor
             stds = factor * np.linalg.norm(self.roots[:, n], axis=1)
@@ -148,7 +148,7 @@ def smooth_drift(f: Fitted, flights: Sequence[Flight]) -> Drift:
 
 def _estimate_noise(d: Drift) -> list[NoiseModel]:
     """Of every observation what nothing explains beside the parameters as they drift: constant ones leave their walk as noise."""
-    f, left = d.f, []
+    f, residuals = d.f, []
     for x in f.prepared:
         o, steps = x.observation, np.zeros((len(x.observation.record.time), f.n_base))
         for rows, step, _ in d.follow(o.flight):
@@ -158,23 +158,23 @@ def _estimate_noise(d: Drift) -> list[NoiseModel]:
             return np.asarray(np.einsum("nmk,kn->mk", piece.columns[: f.n_base], steps[piece.rows]))
 
         walked = np.concatenate([*x.each(drift, whitened=False)], axis=1)
-        left.append(replace(o, series=tuple(np.atleast_2d(o.data) - walked)))
-    return estimate_noises(f.model, f.instrument, left, f.calibration.p)
+        residuals.append(replace(o, series=tuple(np.atleast_2d(o.data) - walked)))
+    return estimate_noises(f.model, f.instrument, residuals, f.calibration.p)
 
 
 def _smooth(f: Fitted, starts: Sequence[float], timed: bool, rates: Mapping[str, float] | None) -> Drift:
     """The parameters in each block of time, everything linear about a fit; how fast they walk is sought if ``rates`` is ``None``."""
     blocks = []
     for n, start in enumerate(starts):
-        own = [k for k, o in enumerate(f.observations) if o.flight == n]
-        t = f.observations[own[0]].record.time
+        indices = [k for k, o in enumerate(f.observations) if o.flight == n]
+        t = f.observations[indices[0]].record.time
         edges = make_block_edges(len(t))
         for b in range(BLOCKS):
             rows = slice(int(edges[b]), int(edges[b + 1]))
             if rows.start < rows.stop:
                 middle = float(t[rows.start] + t[rows.stop - 1]) / 2
-                known = join([list_base_r_factors(f, k)[b] for k in own])
-                blocks.append((Epoch(n, rows, middle, start + middle), known))
+                r_factor = join([list_base_r_factors(f, k)[b] for k in indices])
+                blocks.append((Epoch(n, rows, middle, start + middle), r_factor))
     blocks.sort(key=lambda x: x[0].elapsed)
     epochs, measured = zip(*blocks, strict=True)
     hours = np.diff([e.elapsed for e in epochs]) / HOUR
@@ -185,12 +185,12 @@ def _smooth(f: Fitted, starts: Sequence[float], timed: bool, rates: Mapping[str,
     walk = np.array([rates.get(n, 0.0) for n in names])
     forward, _ = _filter(prior, measured, hours, walk)
     backward, _ = _filter(prior[:0], measured[::-1], hours[::-1], walk, before=True)
-    whole = [
-        np.asarray(np.linalg.qr(np.vstack(both), mode="r"))[: f.n_base]
-        for both in zip(forward, backward[::-1], strict=True)
+    joined = [
+        np.asarray(np.linalg.qr(np.vstack(pair), mode="r"))[: f.n_base]
+        for pair in zip(forward, backward[::-1], strict=True)
     ]
-    roots = np.array([invert_root(R[:, :-1]) for R in whole])
-    steps = np.array([np.linalg.solve(R[:, :-1], R[:, -1]) for R in whole])
+    roots = np.array([invert_root(R[:, :-1]) for R in joined])
+    steps = np.array([np.linalg.solve(R[:, :-1], R[:, -1]) for R in joined])
     return Drift(f, rates, epochs, steps, roots, timed)
 
 
@@ -229,20 +229,20 @@ def _find_rates(
         )
         return -float(best.fun), float(10.0**best.x)
 
-    found: dict[str, float] = {}
-    known = evidence(found)
+    walks: dict[str, float] = {}
+    log_evidence = evidence(walks)
     while True:
-        tried = {n: fit_rate(n, found) for n in dict.fromkeys(names) if n not in found}
+        tried = {n: fit_rate(n, walks) for n in dict.fromkeys(names) if n not in walks}
         name = max(tried, key=lambda n: tried[n][0], default=None)
-        if name is None or tried[name][0] < known + WORTH:
-            return found
-        found[name] = tried[name][1]
-        for n in [*found]:
-            others = {k: r for k, r in found.items() if k != n}
-            known, found[n] = fit_rate(n, others)
+        if name is None or tried[name][0] < log_evidence + WORTH:
+            return walks
+        walks[name] = tried[name][1]
+        for n in [*walks]:
+            others = {k: r for k, r in walks.items() if k != n}
+            log_evidence, walks[n] = fit_rate(n, others)
             without = evidence(others)
-            if known < without + WORTH:
-                known, found = without, others
+            if log_evidence < without + WORTH:
+                log_evidence, walks = without, others
 
 
 def _filter(
@@ -250,18 +250,18 @@ def _filter(
 ) -> tuple[list[Array], float]:
     """The R factors (n, n + 1) after each block (``before``: before it), and the log evidence of all blocks."""
     n = measured[0].shape[1] - 1
-    R, found, evidence = prior, [], 0.0
+    R, r_factors, evidence = prior, [], 0.0
     for k, T in enumerate(measured):
-        known = R
-        whole = np.asarray(np.linalg.qr(np.vstack([R, T]), mode="r"))
-        R = whole[:n]
-        if len(known) == n:
-            evidence += float(np.sum(np.log(np.abs(np.diag(known)))) - np.sum(np.log(np.abs(np.diag(R)))))
-            evidence -= float(np.sum(whole[n:, -1] ** 2)) / 2
-        found.append(known if before else R)
+        previous = R
+        updated = np.asarray(np.linalg.qr(np.vstack([R, T]), mode="r"))
+        R = updated[:n]
+        if len(previous) == n:
+            evidence += float(np.sum(np.log(np.abs(np.diag(previous)))) - np.sum(np.log(np.abs(np.diag(R)))))
+            evidence -= float(np.sum(updated[n:, -1] ** 2)) / 2
+        r_factors.append(previous if before else R)
         if k < len(hours):
             R = walk_on(R, walk * np.sqrt(max(hours[k], 1e-6)))
-    return found, evidence
+    return r_factors, evidence
 
 
 def walk_on(R: Array, step: Array) -> Array:

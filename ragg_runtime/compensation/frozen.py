@@ -69,14 +69,14 @@ class CalibrationChange:
 
     def find_suspects(self, columns: Sequence[Column]) -> list[dict[str, Any]]:
         """Single parameters whose change would explain the step, the best first; none if the calibration holds."""
-        found: list[dict[str, Any]] = []
+        suspects: list[dict[str, Any]] = []
         for c, signature in zip(columns, self.signatures.T, strict=True):
             power, along = float(signature @ signature), float(signature @ self.z)
             if power > 1.0:  # else the flight does not determine this one
                 value = along / power * c.scale / c.unit_factor
                 share = along**2 / power / self.chi2
-                found.append({"name": c.label, "change": value, "unit": c.unit, "share": share})
-        return [] if self.holds else sorted(found, key=lambda r: -r["share"])[:SUSPECTS]
+                suspects.append({"name": c.label, "change": value, "unit": c.unit, "share": share})
+        return [] if self.holds else sorted(suspects, key=lambda r: -r["share"])[:SUSPECTS]
 
     def as_json(self) -> dict[str, Any]:
         return {
@@ -165,10 +165,10 @@ def measure_change(f: Fitted, saved: Saved) -> CalibrationChange:
     T = join([t for k in range(len(f.observations)) for t in list_base_r_factors(f, k)])
     U, s, _ = np.linalg.svd(T[:n, :n] @ root, full_matrices=False)
     informed = s**2 >= INFORMED
-    both = (U.T @ T[:n])[informed] / np.sqrt(1.0 + s[informed] ** 2)[:, None]
+    whitened = (U.T @ T[:n])[informed] / np.sqrt(1.0 + s[informed] ** 2)[:, None]
     return CalibrationChange(
-        z=both[:, n],
-        signatures=both[:, :n],
+        z=whitened[:, n],
+        signatures=whitened[:, :n],
     )
 
 
@@ -177,23 +177,23 @@ def retest_change(
 ) -> CalibrationChange:
     """The same from observations, of long ones from some blocks of them."""
     parts, noise = [], []
-    for o, own in zip(observations, c.noise, strict=True):
+    for o, noise_model in zip(observations, c.noise, strict=True):
         n = len(o.record.time)
         blocks = [slice(0, n)]
         if n > BLOCKS * TESTED:
             blocks = spread(divide_into_segments(n, TESTED), BLOCKS)
         # of the observation, not of the flight: the disc's angle counts from its beginning
         parts += [o.part(rows) for rows in blocks]
-        noise += [own] * len(blocks)
+        noise += [noise_model] * len(blocks)
     f = prepare_evidence(model, instrument, parts, replace(c, noise=tuple(noise)), candidates=False)
     return measure_change(f, saved)
 
 
-def warn_of_change(made: str, change: CalibrationChange) -> str:
+def warn_of_change(time: str, change: CalibrationChange) -> str:
     """The warning of a compensation by a calibration, made at that instant, that does not hold."""
     p = numbers.equate_probability(change.log_p / np.log(10.0))
     return (
-        f"The calibration of {made} does NOT hold here: against parameters fitted to this record chi-square is "
+        f"The calibration of {time} does NOT hold here: against parameters fitted to this record chi-square is "
         f"{change.chi2:.4g} in {len(change.z)} directions (p {p}). Motion errors beyond the "
         "stated uncertainty may remain; no sample is marked good. What changed: ragg compare --frozen"
     )

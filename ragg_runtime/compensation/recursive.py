@@ -19,7 +19,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.progress import one_thread, split_range
 from ragg_runtime.compensation.calibrate import Saved, saved_calibration
 from ragg_runtime.compensation.channel import Quality
-from ragg_runtime.compensation.compensate import Compensation, find_seeing, leave_out_gradients
+from ragg_runtime.compensation.compensate import Compensation, find_sensitive, leave_out_gradients
 from ragg_runtime.compensation.drift import walk_on
 from ragg_runtime.estimation.least_squares import marginalise
 from ragg_runtime.estimation.observation import ROWS, Observation, combine_output, observe_flights
@@ -68,17 +68,17 @@ class Online:
         self, model: Model, instrument: Instrument, tuning: Tuning, saved: Saved | None = None, place: int = 0
     ) -> None:
         self.model, self.instrument, self.tuning, self.place = model, instrument, tuning, place
-        nominal, every = make_vector(model, instrument), list_base_columns(model, instrument)
-        self.own = list_own_columns([c for c, _ in every], instrument, place)
-        self.columns = [every[k][0] for k in self.own]
+        nominal, columns = make_vector(model, instrument), list_base_columns(model, instrument)
+        self.own = list_own_columns([c for c, _ in columns], instrument, place)
+        self.columns = [columns[k][0] for k in self.own]
         self.p = nominal if saved is None else saved.p
         self.k_ggi = scale_factor(model, self.p, place)
-        n, index = len(self.own), [every[k][1] for k in self.own]
+        n, index = len(self.own), [columns[k][1] for k in self.own]
         scale = np.array([c.scale for c in self.columns])
         self.about, to_nominal = self.p[index] / scale, (nominal[index] - self.p[index]) / scale
-        known = np.diag([1.0] * n + [1.0 / UNKNOWN_EO] * 2)
-        self.sheet = np.column_stack([known, [*to_nominal, 0.0, 0.0]])
-        self.R = np.column_stack([known, np.zeros(n + 2)])
+        unit_prior = np.diag([1.0] * n + [1.0 / UNKNOWN_EO] * 2)
+        self.sheet = np.column_stack([unit_prior, [*to_nominal, 0.0, 0.0]])
+        self.R = np.column_stack([unit_prior, np.zeros(n + 2)])
         if saved is not None:
             self.R[:n, :n] = marginalise(saved.information, self.own)
 
@@ -88,10 +88,10 @@ class Online:
         """
         step = self.tuning.walk * np.array([0.0] * len(self.own) + [STEEPER, 1.0])
         before = walked = float(o.record.time[0])
-        found, flag = [], 0
+        rows, flag = [], 0
         waiting: list[Array] = []
-        for some in split_range(len(o.record.time), ROWS):
-            part = o.part(some)
+        for samples in split_range(len(o.record.time), ROWS):
+            part = o.part(samples)
             for t, row, valid in zip(part.record.time, self.make_rows(part), part.record.valid, strict=True):
                 stepped = t - walked >= UPDATE
                 if stepped:
@@ -99,19 +99,19 @@ class Online:
                     self.R = walk_on(self.R, step * np.sqrt(t - walked))
                     self._fade(t - walked)
                     walked = t
-                whole = valid and bool(np.isfinite(row).all())
-                if whole:
+                usable = valid and bool(np.isfinite(row).all())
+                if usable:
                     waiting.append(row)
-                if not whole or t - before > 1.5 / o.record.rate:
+                if not usable or t - before > 1.5 / o.record.rate:
                     flag = int(Quality.BRIDGED)
                 before = t
                 if stepped:
                     self._fold(waiting)
-                    found.append((t, *self.find_gradient(), flag))
+                    rows.append((t, *self.find_gradient(), flag))
                     flag = 0
             self._fold(waiting)
-            progress.step(float(some.stop - some.start))
-        return np.array(found).reshape(-1, 6).T
+            progress.step(float(samples.stop - samples.start))
+        return np.array(rows).reshape(-1, 6).T
 
     def make_rows(self, o: Observation) -> Array:
         """(N, n + 3): every sample as a row of the least squares, over the noise."""
@@ -131,10 +131,10 @@ class Online:
 
     def _fade(self, t: float) -> None:
         """Forget of what flights said as much as fades within t, s; what the sheet says comes back."""
-        kept = float(np.exp(-t / self.tuning.forget))
-        if kept < 1.0:
-            self.R = np.sqrt(kept) * self.R
-            self._fold([np.sqrt(1.0 - kept) * self.sheet])
+        share = float(np.exp(-t / self.tuning.forget))
+        if share < 1.0:
+            self.R = np.sqrt(share) * self.R
+            self._fold([np.sqrt(1.0 - share) * self.sheet])
 
     def find_gradient(self) -> Array:
         """(4,) Eo: inline, cross, and their standard deviations, marginal over the parameters."""
@@ -169,15 +169,15 @@ def follow(
         If the noise is not known, or a flight holds no output before demodulation.
     """
     saved = None if m.directory.calibration is None else saved_calibration(m)
-    density = _known_noise(m.name, saved) if noise is None else noise
+    density = _find_noise(m.name, saved) if noise is None else noise
     wander = float(density / np.sqrt(2.0) * 2 * np.pi * CUTOFF) if walk is None else walk
     series, entries = [], []
     for k, x in enumerate(flights, 1):
-        columns, said = _follow_flight(m, leave_out_gradients(x), saved, Tuning(density, wander, forget))
+        columns, states = _follow_flight(m, leave_out_gradients(x), saved, Tuning(density, wander, forget))
         if len(flights) > 1:
             columns["flight"] = np.full(len(columns["time"]), k, dtype=np.int64)
         series.append(columns)
-        entries += said
+        entries += states
     result = {
         "calibration": "online",
         "started": "sheet" if saved is None else f"calibration made {saved.time}",
@@ -191,17 +191,17 @@ def follow(
     return Compensation(m.name, result, tuple(series))
 
 
-def _known_noise(name: str, saved: Saved | None) -> float:
+def _find_noise(name: str, saved: Saved | None) -> float:
     """The noise of a saved calibration in the cross channel, Eo/sqrt(Hz); UserError if it is unknown."""
-    left = None if saved is None else saved.error["calibrated"]["cross_Eo_per_rtHz"]
-    if left is None:
+    density = None if saved is None else saved.error["calibrated"]["cross_Eo_per_rtHz"]
+    if density is None:
         raise UserError(
             "the noise is not known",
             where=name,
             found="no saved calibration, or one of records that cannot be demodulated",
             remedy="give it: --noise 2 (Eo/sqrt(Hz) of the cross channel), or calibrate first: ragg calibrate ... --save",
         )
-    return float(left)
+    return float(density)
 
 
 def _follow_flight(
@@ -210,9 +210,9 @@ def _follow_flight(
     """The columns of a flight, and the state of each output's filter at its end."""
     endings = column_endings(m.instrument.layout.output_names)
     columns: dict[str, NDArray[Any]] = {}
-    said = []
+    states = []
     observations = observe_flights([x], m.instrument, whole=True)
-    for o in (observations[k] for k in find_seeing(m.instrument, observations)):
+    for o in (observations[k] for k in find_sensitive(m.instrument, observations)):
         if o.recorded.demodulated:
             raise UserError(
                 "the filter needs the output before demodulation",
@@ -227,6 +227,6 @@ def _follow_flight(
         columns |= dict(zip(names, channels, strict=True))
         columns[f"quality{endings[o.place]}"] = quality.astype(np.int64)
         values = list_parameter_values(f.columns, *f.find_parameters())
-        each = [{**q.as_json(), "name": c.name} for q, c in zip(values, f.columns, strict=True)]
-        said.append({"flight": o.name, "samples": len(o.record.time), "parameters": each})
-    return columns, said
+        parameters = [{**q.as_json(), "name": c.name} for q, c in zip(values, f.columns, strict=True)]
+        states.append({"flight": o.name, "samples": len(o.record.time), "parameters": parameters})
+    return columns, states

@@ -169,11 +169,11 @@ class Experiment:
     @property
     def reasons(self) -> dict[str, list[str]]:
         """Each reason once, with the quantities that it is for."""
-        found: dict[str, list[str]] = {}
+        quantities: dict[str, list[str]] = {}
         for r in self.rows:
             if r.reason:
-                found.setdefault(f"({r.verdict}) {r.reason}", []).append(r.quantity)
-        return found
+                quantities.setdefault(f"({r.verdict}) {r.reason}", []).append(r.quantity)
+        return quantities
 
 
 def _round(value: float) -> str:

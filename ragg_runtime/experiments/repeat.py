@@ -40,8 +40,8 @@ DRAWS = 1000
 
 def predict(name: str, run: Simulation) -> Array:
     """G_out, (N,) V, of the ``analytical`` or ``simplified`` model, given the motion and gradients of a run."""
-    model, known = DERIVED[name], run.instrument
-    values = {"radius": [known.radius], "spin_frequency": [known.spin_frequency], **known.accelerometers}
+    model, sheet = DERIVED[name], run.instrument
+    values = {"radius": [sheet.radius], "spin_frequency": [sheet.spin_frequency], **sheet.accelerometers}
     p = np.concatenate([values[q] for q, _ in model.PARAMETERS])
     return np.asarray(model.output(run.time, np.stack([run.channels[x] for x in model.INPUTS]), p))
 
@@ -62,9 +62,9 @@ def demodulate_run(G: Array, run: Simulation, attenuation: float = 100.0) -> Dem
 def average_turns(G: Array, run: Simulation) -> tuple[float, float]:
     """Inline and cross channel, Eo, by ideal demodulation: the mean over the whole turns of a record."""
     turn = round(1 / (run.instrument.spin_frequency * (run.time[1] - run.time[0])))
-    whole = slice(0, run.time.size // turn * turn)
-    phi = disc_angle(run.instrument.spin_frequency, run.time[whole])
-    g = G[whole] / (run.instrument.scale_factor * EOTVOS)
+    turns = slice(0, run.time.size // turn * turn)
+    phi = disc_angle(run.instrument.spin_frequency, run.time[turns])
+    g = G[turns] / (run.instrument.scale_factor * EOTVOS)
     return float(np.mean(4 * g * np.sin(2 * phi))), float(-np.mean(2 * g * np.cos(2 * phi)))
 
 
@@ -110,14 +110,16 @@ def repeat_multifrequency() -> Experiment:
     mass = PointMass(paper.MASS, _follow_mass)
     run = simulate(perfect(), still(), ROUND, RATE, gravity=mass, auxiliaries={})
     filters = [subtract_centre(run, attenuation) for attenuation in ATTENUATIONS]
-    why = "the derived models measure the centre gradient exactly; the rest is the ripple of the low-pass, which the paper does not state"
+    cause = "the derived models measure the centre gradient exactly; the rest is the ripple of the low-pass, which the paper does not state"
     unreached = "no stop-band attenuation from 40 to 100 dB gives it"
     rows = []
     for name in MODELS:
-        found = [largest(*c[name]) for c in filters]
-        what, reach = f"{name} minus centre, largest of both channels", bounds(np.array(found))
+        ours = [largest(*c[name]) for c in filters]
+        what, reach = f"{name} minus centre, largest of both channels", bounds(np.array(ours))
         rows.append(
-            judge(what, paper.DIFFERENCE[name], found[-1], reach=reach, open_input=why, unexplained=unreached)
+            judge(
+                what, paper.DIFFERENCE[name], ours[-1], reach=reach, open_input=cause, unexplained=unreached
+            )
         )
     settings = {
         "instrument": "perfect: 10 mA/g, 1e9 ohm, R = 0.1 m, 0.25 Hz",
@@ -162,18 +164,18 @@ def repeat_dynamic() -> Experiment:
     base, slopes = respond(measure_analytical)
     reached = base + draw_angles() @ slopes
     gradient = largest(run_regular(gravity=WITH_MASS).G_out - run_regular().G_out)
-    whole = largest(run.G_out)
+    output = largest(run.G_out)
     rows = [
         judge("k_ggi", paper.K_GGI, run.instrument.scale_factor * EOTVOS),
-        judge("output before demodulation", paper.OUTPUT, whole),
+        judge("output before demodulation", paper.OUTPUT, output),
     ]
     for name, error in errors.items():
         rows.append(judge(f"{name} model error before demodulation", paper.MODEL_ERROR, largest(error)))
-    relative = largest(errors["analytical"]) / whole
+    relative = largest(errors["analytical"]) / output
     rows.append(judge("relative error of the analytical model", paper.RELATIVE_ERROR, relative))
-    stated = "no gradient is stated for this experiment"
+    reason = "no gradient is stated for this experiment"
     what = "voltage of the gravitational gradient"
-    rows.append(judge(what, paper.GRADIENT_VOLTAGE, gradient, unexplained=stated))
+    rows.append(judge(what, paper.GRADIENT_VOLTAGE, gradient, unexplained=reason))
     for name, error in errors.items():
         channels = zip(("inline", "cross"), average_turns(error, run), reached.T, strict=True)
         for channel, ours, by_draws in channels:
@@ -210,17 +212,17 @@ def measure_analytical(instrument: Instrument) -> Array:
     return np.array(average_turns(find_error("analytical", run), run))
 
 
-def run_regular(instrument: Instrument | None = None, *, turns: int = 1, **how: Any) -> Simulation:
-    """The numerical model in the motion of Table VI; means over one turn are exact at 16 Hz. ``how``: as of :func:`simulate`."""
-    known = instrument or table_v()
+def run_regular(instrument: Instrument | None = None, *, turns: int = 1, **settings: Any) -> Simulation:
+    """The numerical model in the motion of Table VI; means over one turn are exact at 16 Hz. ``settings``: as of :func:`simulate`."""
+    sheet = instrument or table_v()
     a_x, a_y, a_z, w_x, w_y, w_z = (
-        Sinusoids(mean * unit, [amplitude * unit], [known.spin_frequency], [0.0])
+        Sinusoids(mean * unit, [amplitude * unit], [sheet.spin_frequency], [0.0])
         for name, (mean, amplitude) in paper.TABLE_VI.items()
-        for unit in [known.g0 if name.startswith("a") else DEGREE_PER_HOUR]
+        for unit in [sheet.g0 if name.startswith("a") else DEGREE_PER_HOUR]
     )
-    duration = float(np.rint(turns / known.spin_frequency))
+    duration = float(np.rint(turns / sheet.spin_frequency))
     motion = MotionSignals((a_x, a_y, a_z), (w_x, w_y, w_z))
-    return simulate(known, motion, duration, RATE, auxiliaries={}, **how)
+    return simulate(sheet, motion, duration, RATE, auxiliaries={}, **settings)
 
 
 # --- III.C: turbulence ---------------------------------------------------------------------------------
@@ -265,8 +267,8 @@ def repeat_turbulence() -> Experiment:
     """Repeat the three experiments: one record of each for each of :data:`SEEDS`."""
     values: dict[tuple[int, str], Array] = {}
     for e in EXPERIMENTS:
-        each = [measure_moments(run_turbulent(e, seed)) for seed in SEEDS]
-        values |= {(e, name): np.array([s[name] for s in each]) for name in _LABELS}
+        moments = [measure_moments(run_turbulent(e, seed)) for seed in SEEDS]
+        values |= {(e, name): np.array([s[name] for s in moments]) for name in _LABELS}
     reach = draw_moments()
     rows = [_compare_entry(e, name, values, reach) for e in EXPERIMENTS for name in _LABELS]
     rows += _compare_densities(values, reach)
@@ -284,11 +286,11 @@ def repeat_turbulence() -> Experiment:
 def _compare_entry(e: int, name: str, values: Values, reach: Values) -> PrintedEntry:
     """An entry of Table VIII beside ours."""
     v, simplified = values[e, name], name.startswith(("Ms", "sigmas"))
-    within, why = None, _NO_ANGULAR_MOTION
+    within, unexplained = None, _NO_ANGULAR_MOTION
     if not simplified:
-        within, why = bounds(reach[e, name]), "no vartheta_x within that range gives it"
+        within, unexplained = bounds(reach[e, name]), "no vartheta_x within that range gives it"
     elif e > 1:
-        why = "the spread of our seeds does not reach it"
+        unexplained = "the spread of our seeds does not reach it"
         if name.startswith("Ms"):
             plain = name.replace("Ms", "M")
             (low, high), (least, greatest) = bounds(reach[e, plain]), bounds(v - values[e, plain])
@@ -300,7 +302,7 @@ def _compare_entry(e: int, name: str, values: Values, reach: Values) -> PrintedE
         spread=bounds(v),
         reach=within,
         open_input=_MEAN if simplified else _ANALYTICAL,
-        unexplained=why,
+        unexplained=unexplained,
     )
 
 

@@ -73,14 +73,14 @@ class Job:
 
 def expand_lines(job: Job, files: Sequence[str]) -> list[str]:
     """The files, and for those with several lines ``file::line`` for each; what cannot be read stays as it is."""
-    found = []
+    flights = []
     for file in files:
         try:
             names = [r.line for r in read_recordings(Path(file), job.mapped())]
         except (UserError, OSError):
             names = [None]
-        found += [file] if len(names) == 1 else [f"{file}{BETWEEN}{n}" for n in names]
-    return found
+        flights += [file] if len(names) == 1 else [f"{file}{BETWEEN}{n}" for n in names]
+    return flights
 
 
 def split_line(file: str) -> tuple[Path, str | None]:
@@ -120,20 +120,20 @@ def _diagnose_file(job: Job, file: str) -> Record:
         )
     instrument = parse_instrument(job.text, Path(job.path))
     model = derive.load_model(instrument)
-    read = read_flight(path, instrument.g0, accelerometers=instrument.layout, mapping=job.mapped(), line=line)
-    flight = screen(model, instrument, read)
+    raw = read_flight(path, instrument.g0, accelerometers=instrument.layout, mapping=job.mapped(), line=line)
+    flight = screen(model, instrument, raw)
     return _make_record(fit(model, instrument, observe_flights([flight], instrument)), flight)
 
 
 def _require_same_program(job: Job) -> None:
-    own, asked = dict(fingerprint()), dict(job.program)
-    different = [n for n in asked if own.get(n) != asked[n]]
+    installed, required = dict(fingerprint()), dict(job.program)
+    different = [n for n in required if installed.get(n) != required[n]]
     if different:
         raise UserError(
             "the worker runs another version of the program",
             where=socket.gethostname(),
-            found=", ".join(f"{n} {own.get(n)}" for n in different),
-            expected=", ".join(f"{n} {asked[n]}" for n in different),
+            found=", ".join(f"{n} {installed.get(n)}" for n in different),
+            expected=", ".join(f"{n} {required[n]}" for n in different),
             remedy="install the same versions on all workers",
         )
 
@@ -142,7 +142,7 @@ def _make_record(f: Fitted, flight: Flight) -> Record:
     held_out, nominal = comparison.score_with_nominal(f, [f.fit_held_out()])
     extend = partial(derive.with_effects, f.instrument)
     d = heed_flags(diagnose_fitted(f, [flight], extend), [flight])
-    held = held_out.held_out.as_json()
+    holdout = held_out.held_out.as_json()
     record: Record = {
         "sha256": flight.digest,
         CONTENT: content(flight),
@@ -163,12 +163,12 @@ def _make_record(f: Fitted, flight: Flight) -> Record:
         "error": {
             "nominal": nominal.whole.as_json(),
             "calibrated": d.before.as_json(),
-            "holdout": held,
+            "holdout": holdout,
             "after": d.after.as_json(),
-            "after_holdout": _after_holdout(d, held),
+            "after_holdout": _score_holdout(d, holdout),
         },
         "noise_floor": {"rms_Eo": d.noise_floor},
-        "parameters": _visible_parameters(d),
+        "parameters": _list_visible(d),
     }
     if d.remains:
         record["terms"] = d.terms()
@@ -177,22 +177,22 @@ def _make_record(f: Fitted, flight: Flight) -> Record:
     return dict(json.loads(text, parse_constant=lambda _: None))
 
 
-def _after_holdout(d: Diagnosis, held: Mapping[str, Any]) -> Mapping[str, Any] | None:
+def _score_holdout(d: Diagnosis, holdout: Mapping[str, Any]) -> Mapping[str, Any] | None:
     if d.final is not None:
         (scored,) = d.final.score([d.final.fit_held_out()])
         return scored.held_out.as_json()
     if not d.found:
-        return held
+        return holdout
     return next((r.after_holdout.as_json() for r in d.ranking if d.found == (r.effect,)), None)
 
 
-def _visible_parameters(d: Diagnosis) -> list[Record]:
+def _list_visible(d: Diagnosis) -> list[Record]:
     """Calibrated values of what this record sees: single parameters, else combinations; effects by their id."""
-    every = Estimates.of_calibration(d.final or d.fitted)
-    each = zip(every.columns, every.list_parameters(), np.diag(every.covariance), strict=True)
-    found = [(q.effect, p) for q, p, variance in each if variance < SEEN**2]
-    for e in dict.fromkeys(q.effect for q in every.columns):
-        found += [(e, p) for p in every.select(e).list_combinations()]
+    estimates = Estimates.of_calibration(d.final or d.fitted)
+    rows = zip(estimates.columns, estimates.list_parameters(), np.diag(estimates.covariance), strict=True)
+    visible = [(q.effect, p) for q, p, variance in rows if variance < SEEN**2]
+    for e in dict.fromkeys(q.effect for q in estimates.columns):
+        visible += [(e, p) for p in estimates.select(e).list_combinations()]
     if d.final is None:
-        found += [(r.effect, p) for r in d.ranking if r.effect in d.found for p in r.parameters]
-    return [p.as_json() | {"name": f"{e}.{p.name}" if e else p.name} for e, p in found]
+        visible += [(r.effect, p) for r in d.ranking if r.effect in d.found for p in r.parameters]
+    return [p.as_json() | {"name": f"{e}.{p.name}" if e else p.name} for e, p in visible]

@@ -82,15 +82,15 @@ class Survey:
 
 
 def _median(values: Sequence[float | None]) -> float | None:
-    known = [v for v in values if v is not None]
-    return float(np.median(known)) if known else None
+    numbers = [v for v in values if v is not None]
+    return float(np.median(numbers)) if numbers else None
 
 
 def count_verdicts(counts: Mapping[str, int]) -> str:
     """The verdicts in one line: ``12 flights: 8 adequate, 4 missing an effect``."""
     total = sum(counts.values())
-    said = ", ".join(f"{counts[k]} {text}" for k, text in VERDICTS.items() if counts[k])
-    return f"{errors.count(total, 'flight')}: {said}"
+    verdicts = ", ".join(f"{counts[k]} {text}" for k, text in VERDICTS.items() if counts[k])
+    return f"{errors.count(total, 'flight')}: {verdicts}"
 
 
 def _recommend(done: Sequence[Record], s: Mapping[str, Any], model_dir: Path | str) -> list[str]:
@@ -127,20 +127,20 @@ def _quote(r: Record) -> str:
     return shlex.quote(clean(str(below)))
 
 
-def _claims(r: Record) -> list[tuple[str, frozenset[str]]]:
+def _list_claims(r: Record) -> list[tuple[str, frozenset[str]]]:
     """What a flight asks for: an effect, and those of which one is needed."""
     return [(e, frozenset({e, *r["indistinguishable"].get(e, ())})) for e in r["found"]]
 
 
 def _count_effects(done: Sequence[Record]) -> list[Record]:
     """How often an effect was ``found``, would ``perhaps`` do as well, and was ``testable`` on the flight's record."""
-    found = []
-    for e in {e for r in done for _, group in _claims(r) for e in group}:
-        own = sum(e in r["found"] for r in done)
-        either = sum(any(e in group for _, group in _claims(r)) for r in done)
+    rows = []
+    for e in {e for r in done for _, group in _list_claims(r) for e in group}:
+        claims = sum(e in r["found"] for r in done)
+        either = sum(any(e in group for _, group in _list_claims(r)) for r in done)
         testable = sum(e not in r["not_testable"] for r in done)
-        found.append({"effect": e, "found": own, "perhaps": either - own, "testable": testable})
-    return sorted(found, key=lambda x: (-x["found"], -x["perhaps"], x["effect"]))
+        rows.append({"effect": e, "found": claims, "perhaps": either - claims, "testable": testable})
+    return sorted(rows, key=lambda x: (-x["found"], -x["perhaps"], x["effect"]))
 
 
 def _advise(done: Sequence[Record]) -> list[Record]:
@@ -150,12 +150,12 @@ def _advise(done: Sequence[Record]) -> list[Record]:
     it; ``alternatives``: effects that none of them can distinguish from it; ``firm``: so many, or one with such evidence, can hardly be
     false alarms.
     """
-    claims = [(r, e, group) for r in done for e, group in _claims(r)]
-    found = []
+    claims = [(r, e, group) for r in done for e, group in _list_claims(r)]
+    advice = []
     while claims:
         either = Counter(e for _, _, group in claims for e in group)
-        own = Counter(main for _, main, _ in claims)
-        best = min(either, key=lambda e: (-either[e], -own[e], e))
+        main_claims = Counter(main for _, main, _ in claims)
+        best = min(either, key=lambda e: (-either[e], -main_claims[e], e))
         mine = [(r, group) for r, _, group in claims if best in group]
         flights = list(dict.fromkeys(str(r["flight"]) for r, _ in mine))
         chance = float(np.log10(special.bdtrc(len(flights) - 1, len(done), PROMISED)))
@@ -166,7 +166,7 @@ def _advise(done: Sequence[Record]) -> list[Record]:
             if x["effect"] == best
         ]
         strongest = min(evidence, default=None)
-        found.append(
+        advice.append(
             {
                 "effect": best,
                 "flights": flights,
@@ -177,7 +177,7 @@ def _advise(done: Sequence[Record]) -> list[Record]:
             }
         )
         claims = [c for c in claims if best not in c[2]]
-    return found
+    return advice
 
 
 def _count_terms(done: Sequence[Record]) -> list[Record]:
@@ -200,25 +200,25 @@ def find_trends(done: Sequence[Record]) -> list[Record]:
             if p["value"] is not None and p["std"]:
                 key = (p["name"], p["accelerometer"], p["unit"])
                 columns.setdefault(key, {})[n] = (p["value"], p["std"])
-    found = [(key, _find_trend(seen, len(done))) for key, seen in columns.items() if len(seen) > 1]
-    rows = [{"name": name, "accelerometer": j, "unit": unit, **t} for (name, j, unit), t in found]
+    trends = [(key, _find_trend(values, len(done))) for key, values in columns.items() if len(values) > 1]
+    rows = [{"name": name, "accelerometer": j, "unit": unit, **t} for (name, j, unit), t in trends]
     return sorted(rows, key=lambda t: (log_sf(t["chi2"], t["dof"]), t["name"], t["accelerometer"] or 0))
 
 
-def _find_trend(seen: Mapping[int, tuple[float, float]], count: int) -> Record:
-    at = np.array(sorted(seen), dtype=np.float64)
-    v, s = np.array([seen[int(n)] for n in at]).T
+def _find_trend(values: Mapping[int, tuple[float, float]], count: int) -> Record:
+    positions = np.array(sorted(values), dtype=np.float64)
+    v, s = np.array([values[int(n)] for n in positions]).T
     w = 1.0 / s**2
     centre = float(v[0])  # of values that agree to many digits, only the differences are summed
     mean = centre + float(np.sum(w * (v - centre)) / np.sum(w))
-    x = at - float(np.sum(w * at) / np.sum(w))
+    x = positions - float(np.sum(w * positions) / np.sum(w))
     chi2, dof = float(np.sum(w * (v - mean) ** 2)), len(v) - 1
     line = float(np.sum(w * x * (v - mean)) / np.sum(w * x**2))
     about = float(np.sum(w * (v - mean - line * x) ** 2))
     wider = max(1.0, about / max(dof - 1, 1)) ** 0.5
     return {
-        "values": [seen[n][0] if n in seen else None for n in range(count)],
-        "stds": [seen[n][1] if n in seen else None for n in range(count)],
+        "values": [values[n][0] if n in values else None for n in range(count)],
+        "stds": [values[n][1] if n in values else None for n in range(count)],
         "mean": mean,
         "scatter": float(np.std(v, ddof=1)),
         "chi2": chi2,
@@ -238,11 +238,11 @@ KEPT = ("flight", "file", "sha256", "verdict", "error", "samples", "duration_s",
 def make_parquet(records: Sequence[Record]) -> bytes:
     """The table as the bytes of a Parquet file; the same records give the same bytes."""
     stream = io.BytesIO()
-    pq.write_table(pa.Table.from_pylist([*map(_row, records)]), stream, compression="zstd")
+    pq.write_table(pa.Table.from_pylist([*map(_make_row, records)]), stream, compression="zstd")
     return stream.getvalue()
 
 
-def _row(r: Record) -> Record:
+def _make_row(r: Record) -> Record:
     done = "verdict" in r
     errors = {**r["error"], "noise_floor": r["noise_floor"]} if done else {}
     scored = {f"{n}_Eo": (errors.get(n) or {}).get("rms_Eo") for n in (*ERRORS, "noise_floor")}

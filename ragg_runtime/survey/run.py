@@ -83,25 +83,25 @@ def survey(
         raise UserError("a survey needs flights", expected="one file or more")
     if jobs is not None and scheduler is not None:
         raise UserError("a survey runs on this machine or on a cluster", found="--jobs and --scheduler")
-    how = mapping_of(m, mapping)
+    mapped = mapping_of(m, mapping)
     job = Job(
         text=m.directory.text,
         path=str((m.directory.path / "model.toml").resolve()),
-        mapping=None if how is None else (read_text(how.path), str(how.path.resolve()), how.kept),
+        mapping=None if mapped is None else (read_text(mapped.path), str(mapped.path.resolve()), mapped.kept),
         cluster=scheduler is not None,
     )
     names = name_flights(expand_lines(job, [str(Path(f).resolve()) for f in flights]))
     tell = progress or (lambda done, total, record: None)
     with open_journal(resume, job, [*names]) as (records, keep):
         tell(len(records), len(names), None)
-        left = [f for f in names if f not in records]
+        unfinished = [f for f in names if f not in records]
         if scheduler is None:
-            own = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-            found = examine_all(job, left, partial(open_processes, jobs or own))
+            cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+            results = examine_all(job, unfinished, partial(open_processes, jobs or cores))
         else:
-            found = examine_all(job, left, partial(open_cluster, scheduler), attempts=1)
-        with contextlib.closing(found):
-            for file, record in found:
+            results = examine_all(job, unfinished, partial(open_cluster, scheduler), attempts=1)
+        with contextlib.closing(results):
+            for file, record in results:
                 records[file] = record | {"flight": names[file]}
                 keep(records[file])
                 tell(len(records), len(names), records[file])
@@ -112,15 +112,15 @@ def survey(
 def name_flights(files: Sequence[str]) -> dict[str, str]:
     """File -> the flight's name, in the order of these: of the file, with as many folders before it as distinguish it from others."""
     split = {f: split_line(f) for f in files}
-    left, depth = {path for path, _ in split.values()}, 0
-    known: dict[Path, str] = {}
-    while left:
+    unnamed, depth = {path for path, _ in split.values()}, 0
+    names: dict[Path, str] = {}
+    while unnamed:
         depth += 1
-        count = Counter(p.parts[-depth:] for p in left)
-        known |= {p: "/".join(p.parts[-depth:]) for p in left if count[p.parts[-depth:]] == 1}
-        left -= known.keys()
-    ordered = sorted(split.items(), key=lambda x: known[x[1][0]])
-    return {f: known[path] + ("" if line is None else f"{BETWEEN}{line}") for f, (path, line) in ordered}
+        count = Counter(p.parts[-depth:] for p in unnamed)
+        names |= {p: "/".join(p.parts[-depth:]) for p in unnamed if count[p.parts[-depth:]] == 1}
+        unnamed -= names.keys()
+    ordered = sorted(split.items(), key=lambda x: names[x[1][0]])
+    return {f: names[path] + ("" if line is None else f"{BETWEEN}{line}") for f, (path, line) in ordered}
 
 
 def drop_repeated(records: Sequence[Record]) -> Iterator[Record]:
@@ -153,8 +153,8 @@ def examine_all(
     for attempt in range(attempts):
         for waiting in [deque([f]) for f in failed] if attempt else [deque(files)]:
             while waiting:  # a pool that breaks is replaced
-                with open_pool(len(waiting)) as (pool, most):
-                    for file, future in _run(pool, job, waiting, most):
+                with open_pool(len(waiting)) as (pool, limit):
+                    for file, future in _run(pool, job, waiting, limit):
                         failed[file] = future.exception()
                         if failed[file] is None:
                             del failed[file]
@@ -167,12 +167,12 @@ def examine_all(
         yield file, {"flight": os.path.basename(file), "file": file, "error": lost}
 
 
-def _run(pool: Executor, job: Job, waiting: deque[str], most: int) -> Generator[tuple[str, Future[Record]]]:
-    """(file, future) of flights as they are done, ``most`` at a time: all that wait, or until a worker's death breaks the pool."""
+def _run(pool: Executor, job: Job, waiting: deque[str], limit: int) -> Generator[tuple[str, Future[Record]]]:
+    """(file, future) of flights as they are done, ``limit`` at a time: all that wait, or until a worker's death breaks the pool."""
     running: dict[Future[Record], str] = {}
     broken = False
     while not broken and (waiting or running):
-        while waiting and len(running) < most:
+        while waiting and len(running) < limit:
             file = waiting.popleft()
             running[pool.submit(examine, job, file)] = file
         done = wait(running, return_when=FIRST_COMPLETED).done
@@ -276,9 +276,9 @@ def open_journal(
     if path is None:
         yield {}, lambda record: None
         return
-    with path.open("a+b") as stream, contextlib.ExitStack() as held:
+    with path.open("a+b") as stream, contextlib.ExitStack() as stack:
         try:
-            held.enter_context(lock(path, 0.0))
+            stack.enter_context(lock(path, 0.0))
         except TimeoutError:
             remedy = "wait until it has ended, or name another file"
             raise UserError(
@@ -291,18 +291,18 @@ def open_journal(
             stream.flush()
             os.fsync(stream.fileno())
 
-        head, (found, *lines) = _make_head(job), _read_lines(stream, path)
-        if not found:
+        head, (first_line, *lines) = _make_head(job), _read_lines(stream, path)
+        if not first_line:
             write(head)
-        elif found != head:
+        elif first_line != head:
             raise UserError(
                 "these results are of another model.toml, mapping or version of the program",
                 where=path,
                 remedy="name another results file: the results would not be comparable",
             )
         done = {r["file"]: r for r in (x["record"] for x in lines) if "verdict" in r}
-        whole = {f: done[f] for f in files if f in done and done[f]["sha256"] == digest_file(f)}
-        yield whole, lambda record: write({"record": record})
+        unchanged = {f: done[f] for f in files if f in done and done[f]["sha256"] == digest_file(f)}
+        yield unchanged, lambda record: write({"record": record})
 
 
 def _make_head(job: Job) -> Record:
@@ -316,9 +316,9 @@ def _read_lines(stream: IO[bytes], path: Path) -> list[Record]:
     """The lines of a results file, of a new one an empty line; one that was cut off is left out, there too."""
     stream.seek(0)
     text = stream.read()
-    whole = text[: text.rfind(b"\n") + 1]
+    complete = text[: text.rfind(b"\n") + 1]
     try:
-        lines: list[Record] = [json.loads(line) for line in whole.splitlines()]
+        lines: list[Record] = [json.loads(line) for line in complete.splitlines()]
         sound = not text or (lines[0]["kind"] == "ragg survey" and all("record" in x for x in lines[1:]))
     except (ValueError, LookupError, TypeError, RecursionError):
         sound = False
@@ -330,7 +330,7 @@ def _read_lines(stream: IO[bytes], path: Path) -> list[Record]:
             expected="a file that `ragg survey --resume` has written, or none",
             remedy="name another file",
         )
-    stream.truncate(len(whole))
+    stream.truncate(len(complete))
     return lines or [{}]
 
 

@@ -99,11 +99,11 @@ class Contents:
 
     def parameters(self) -> list[Json]:
         """The parameters in the order of the vector, SI."""
-        known = units(self.instrument.g0)
+        u = units(self.instrument.g0)
         texts = {n: (q.si_unit, q.description) for n, q in PARAMETER.items()}
         texts |= {n: (unit, "of the disc") for n, unit in DISC_UNITS.items()}
         for e in self.model.effects:
-            texts |= {q.symbol: (known.base_unit(q.unit), f"{e.id}: {q.meaning}") for q in e.parameters}
+            texts |= {q.symbol: (u.base_unit(q.unit), f"{e.id}: {q.meaning}") for q in e.parameters}
         values = name_values(self.model.chain, self.p)
         return [
             {"name": n, "unit": texts[n][0], "meaning": texts[n][1], "values": x.tolist()}
@@ -121,7 +121,7 @@ class Contents:
                     expected="effects without memory (resonances, hysteresis, creep and heat have one)",
                     remedy=f"ragg remove the effect {e.id}, or use ragg compensate",
                 )
-        found = []
+        inputs = []
         for name in self.model.chain.INPUTS:
             match = None if name in SI_UNITS else re.fullmatch(r"d(?P<order>2?)_(?P<of>.+)", name)
             column, order = name, 0
@@ -129,8 +129,8 @@ class Contents:
                 column, order = DISC, 1 + SPIN.index(name)
             elif match is not None:
                 column, order = match["of"], int(match["order"] or 1)
-            found.append({"name": name, "column": column, "derivative": order, "unit": unit_of(column)})
-        return found
+            inputs.append({"name": name, "column": column, "derivative": order, "unit": unit_of(column)})
+        return inputs
 
     def columns(self) -> list[str]:
         """The columns of a flight that the model reads, besides ``time`` and the disc angles."""
@@ -166,22 +166,22 @@ class Contents:
             for name, k in self.discs().items():
                 turned = 2 * np.pi * float(self.p[k]) * t + 1e-3 * np.sin(0.7 * t)
                 columns[name] = np.mod(turned, 2 * np.pi)
-        return columns, self._answer(columns)
+        return columns, self._compute_outputs(columns)
 
-    def _answer(self, columns: Mapping[str, Array]) -> dict[str, Array]:
+    def _compute_outputs(self, columns: Mapping[str, Array]) -> dict[str, Array]:
         """The outputs by the form that is exported."""
         wide = {n: x for n, x in columns.items() if n != "time"}
         for name, rate in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
             if name not in wide and rate in wide:
                 wide[name] = differentiate_rate(wide[rate], RATE)[0]
         x = Flight(time=columns["time"], channels=wide, outputs={})
-        chain, found = replace(self.model.chain, sources={}), {}
+        chain, outputs = replace(self.model.chain, sources={}), {}
         if "folded.c" not in self.sources:
             chain = replace(chain, folded=None)
         for k, o in enumerate(self.instrument.layout.outputs):
             r = record(x, self.instrument, k)
-            found[o.name] = chain.output(r.time, r.inputs(chain), self.p, r.phi, which=k)
-        return found
+            outputs[o.name] = chain.output(r.time, r.inputs(chain), self.p, r.phi, which=k)
+        return outputs
 
     def document(self) -> Json:
         """The model's description, its parameters with units, its inputs and outputs, and an example with its answer."""
@@ -270,8 +270,8 @@ def write_values(c: Contents, name: str) -> str:
     """values.h of a model whose C is ``name``.c."""
     outputs, discs, motion = c.outputs(), c.discs(), c.columns()
     if {*motion} & {*ANGULAR_ACCELERATION}:  # three and three, one after the other
-        whole = [*ANGULAR_RATE, *ANGULAR_ACCELERATION]
-        motion = [*whole, *(n for n in motion if n not in whole)]
+        angular = [*ANGULAR_RATE, *ANGULAR_ACCELERATION]
+        motion = [*angular, *(n for n in motion if n not in angular)]
     columns = ["time", *discs, *motion, *(o["name"] for o in outputs)]
     parameters = [
         (x, v["name"] if len(v["values"]) == 1 else f"{v['name']}[{j}]", v["unit"], v["meaning"])
@@ -308,12 +308,12 @@ def make_numpy(c: Contents) -> Files:
         "long": wide_weights().tolist(),
         "spin": {"seconds": SPIN_WINDOW, "most": HALO, "degrees": DEGREES},
     }
-    here = resources.files(__name__)
+    package = resources.files(__name__)
     return {
         **make_json(c),
         "chain.py": c.module,
         "derivative.json": f"{json.dumps(slopes)}\n",
-        "ragg_model.py": here.joinpath("python", "ragg_model.py").read_text("utf-8"),
+        "ragg_model.py": package.joinpath("python", "ragg_model.py").read_text("utf-8"),
         **make_tests(c),
     }
 
@@ -325,14 +325,14 @@ def make_json(c: Contents) -> Files:
 
 def make_tests(c: Contents) -> Files:
     """Two short motions with the model's answers; the second without angular acceleration but with encoders."""
-    found = {}
+    files = {}
     for name, derived in (("motion", False), ("derived_motion", True)):
         motion, outputs = c.example(derived=derived)
         header = [*(f"{n} [{unit_of(n)}]" for n in motion), *(f"{n} [V]" for n in outputs)]
         rows = zip(*motion.values(), *outputs.values(), strict=True)
         lines = [",".join(header), *(",".join(f"{x:.17g}" for x in row) for row in rows)]
-        found[f"test/{name}.csv"] = "\n".join(lines) + "\n"
-    return found
+        files[f"test/{name}.csv"] = "\n".join(lines) + "\n"
+    return files
 
 
 FORMS: Mapping[str, Callable[[Contents], Files]] = {"c": make_c, "numpy": make_numpy, "json": make_json}

@@ -40,11 +40,11 @@ def voltage(o, columns, t):
     if encoder is None:
         start = 0.0 if MODEL["angle_origin"] == "first-sample" else columns["time"][0]
         phi = disc_angle(t, o["spin_frequency"]) + disc_angle(start, o["spin_frequency"])
-    added, taken = np.zeros(len(t)), np.zeros(len(t))
+    added, subtracted = np.zeros(len(t)), np.zeros(len(t))
     for j, sign in zip(o["accelerometers"], o["signs"]):
-        into = added if sign > 0 else taken
+        into = added if sign > 0 else subtracted
         into += chain.accelerometer(j, t, np.cos(phi), np.sin(phi), series, chain.values_of(j, PARAMETERS))
-    return added - taken
+    return added - subtracted
 
 
 def read_input(x, o, encoder, columns, t):
@@ -90,20 +90,20 @@ def acceleration(omega, t):
 
 def spin(angle, order, t):
     """Rate (order 1) or acceleration (2) of an encoder's angle, by polynomials through the samples around each."""
-    rate, least = rate_of(t), SPIN["degrees"][0]
-    half = min(max(round(SPIN["seconds"] * rate), least), SPIN["most"], (len(t) - 1) // 2)
-    if 2 * half < least:
+    rate, shortest = rate_of(t), SPIN["degrees"][0]
+    half = min(max(round(SPIN["seconds"] * rate), shortest), SPIN["most"], (len(t) - 1) // 2)
+    if 2 * half < shortest:
         fail("too few rows for the rate of a disc")
     steps = np.diff(angle)
     steps -= 2 * np.pi * np.rint(steps / (2 * np.pi))
     steady = np.mean(steps)
     x = np.concatenate([[0.0], np.cumsum(steps - steady)])
-    degree, found = best_degree(x, half), np.empty(len(x))
-    found[half : len(x) - half] = np.correlate(x, polynomial_weights(half, 0, order, degree), "valid")
+    degree, slope = best_degree(x, half), np.empty(len(x))
+    slope[half : len(x) - half] = np.correlate(x, polynomial_weights(half, 0, order, degree), "valid")
     for k in range(half):
-        found[k] = polynomial_weights(half, k - half, order, degree) @ x[: 2 * half + 1]
-        found[len(x) - 1 - k] = polynomial_weights(half, half - k, order, degree) @ x[-2 * half - 1 :]
-    return (found + steady) * rate if order == 1 else found * rate**2
+        slope[k] = polynomial_weights(half, k - half, order, degree) @ x[: 2 * half + 1]
+        slope[len(x) - 1 - k] = polynomial_weights(half, half - k, order, degree) @ x[-2 * half - 1 :]
+    return (slope + steady) * rate if order == 1 else slope * rate**2
 
 
 def best_degree(x, half):
@@ -112,9 +112,9 @@ def best_degree(x, half):
     if len(x) < 2 * (2 * half + 1) or len(degrees) < 2:
         return SPIN["degrees"][0]
     curvatures = [polynomial_weights(half, 0, 2, d) for d in degrees]
-    left = -polynomial_weights(half, 0, 0, degrees[-1])
-    left[half] += 1.0
-    kernels = [*(b - a for a, b in itertools.pairwise(curvatures)), left]
+    residual = -polynomial_weights(half, 0, 0, degrees[-1])
+    residual[half] += 1.0
+    kernels = [*(b - a for a, b in itertools.pairwise(curvatures)), residual]
     gains = np.array([w @ w for w in kernels])
     squares = np.array([np.sum(np.correlate(x, w, "valid") ** 2) for w in kernels])
     noise = np.maximum.accumulate((squares / gains)[::-1])[::-1]
@@ -125,8 +125,8 @@ def best_degree(x, half):
 def polynomial_weights(half, at, order, degree):
     """Weights of 2 half + 1 samples for the derivative, of this order, at one, counted from the middle."""
     through = np.linalg.pinv(chebyshev.chebvander(np.arange(-half, half + 1) / half, degree))
-    there = [chebyshev.chebval(at / half, chebyshev.chebder(e, order)) for e in np.eye(degree + 1)]
-    return np.array(there) @ through / half**order
+    at_sample = [chebyshev.chebval(at / half, chebyshev.chebder(e, order)) for e in np.eye(degree + 1)]
+    return np.array(at_sample) @ through / half**order
 
 
 def disc_angle(t, f):
