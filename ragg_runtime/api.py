@@ -137,7 +137,7 @@ def diagnose(
 
 def parse_limits(m: Loaded, texts: Sequence[str]) -> Mapping[str, float]:
     """Largest amplitudes of a motion to fly next, and of its rates of change, SI, from texts such as ``a=50mg`` or ``a_z=1mg``."""
-    found = dict(LIMITS)
+    amplitudes = dict(LIMITS)
     for text in texts:
         name, _, size = text.partition("=")
         kind = name.partition("_")[0]
@@ -152,8 +152,8 @@ def parse_limits(m: Loaded, texts: Sequence[str]) -> Mapping[str, float]:
         value = m.instrument.units.to_si(np.asarray(q.value), q.unit, UNITS[kind], f"--limit {name}")
         if not float(value) > 0.0:
             raise UserError("the limit of a motion must be positive", where=f"--limit {name}", found=size)
-        found[name] = float(value)
-    return MappingProxyType(found)
+        amplitudes[name] = float(value)
+    return MappingProxyType(amplitudes)
 
 
 @dataclass(frozen=True, repr=False)
@@ -190,14 +190,14 @@ class Added:
             "converged": self.converged,
             "reason": None if self.after is None else self.after.complaint,
             "off_sheet": [] if self.after is None else [x.as_json() for x in self.after.off_sheet],
-            "before": _judged(self.before),
-            "after": _judged(self.after),
+            "before": _judge(self.before),
+            "after": _judge(self.after),
             "parameters": [p.as_json() for p in self.parameters],
             "combinations": [p.as_json() for p in self.combinations],
         }
 
 
-def _judged(c: Comparison | None) -> dict[str, object] | None:
+def _judge(c: Comparison | None) -> dict[str, object] | None:
     """The errors of a comparison with its noise floor, and whether the model is adequate."""
     if c is None:
         return None
@@ -236,10 +236,10 @@ def add(
         If there is no such effect, if the model has it, or if a flight lacks a channel that it needs.
     """
     flights = read_flights(m, flights)
-    setting = _setting(m, effect, flights)
-    others = replace(m.instrument, effects=tuple(s for s in m.instrument.effects if s.id != effect))
-    before = _compare.compare(derive.load_model(others), others, flights) if flights else None
-    extended = replace(others, effects=(*others.effects, setting))
+    setting = _prepare_setting(m, effect, flights)
+    without = replace(m.instrument, effects=tuple(s for s in m.instrument.effects if s.id != effect))
+    before = _compare.compare(derive.load_model(without), without, flights) if flights else None
+    extended = replace(without, effects=(*without.effects, setting))
     model = derive.load_model(extended)
     after: Comparison | None = None
     parameters: tuple[ParameterValue, ...] = ()
@@ -248,12 +248,12 @@ def add(
         extended = choose_start(before.fitted, model, extended, effect)
         setting = extended.effect(effect) or setting
         after = _compare.compare(model, extended, flights)
-        found = Estimates.of_calibration(after.fitted).select(effect)
-        parameters, combinations = found.list_parameters(), found.list_combinations()
-        values = {**setting.values, **_written(parameters, m.instrument.layout.size)}
+        estimates = Estimates.of_calibration(after.fitted).select(effect)
+        parameters, combinations = estimates.list_parameters(), estimates.list_combinations()
+        values = {**setting.values, **_list_quantities(parameters, m.instrument.layout.size)}
         setting = replace(setting, values=MappingProxyType(values))
-        after = after.with_nominal(replace(extended, effects=(*others.effects, setting)))
-    made = Added(m, effect, before, after, parameters, combinations)
+        after = after.with_nominal(replace(extended, effects=(*without.effects, setting)))
+    result = Added(m, effect, before, after, parameters, combinations)
     text = add_effect(m.directory.text, setting)
     step = HistoryStep(
         action="add",
@@ -264,17 +264,17 @@ def add(
         flights=MappingProxyType({x.name: x.digest for x in flights}),
         text=text,
     )
-    if made.converged:
-        made = replace(made, loaded=as_of(m, text, step))
+    if result.converged:
+        result = replace(result, loaded=as_of(m, text, step))
     if tell is not None:
-        tell(made)
-    if not (save and made.converged):
-        return replace(made, loaded=m)
+        tell(result)
+    if not (save and result.converged):
+        return replace(result, loaded=m)
     directory = replace_model_dir(m.directory, text, generated=derive.list_files(extended), step=step)
-    return replace(made, loaded=load_state(directory))
+    return replace(result, loaded=load_state(directory))
 
 
-def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting:
+def _prepare_setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting:
     """The effect as model.toml will list it, its values open but for a step's instant; UserError if it cannot be added."""
     offered = m.model.effect(effect) or derive.with_effects(m.instrument, m.model, [effect]).effect(effect)
     assert offered is not None
@@ -298,25 +298,25 @@ def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting
             )
     values = dict(present.values)
     if offered.kind == "step" and flights:
-        values = {"t_step": RawQuantity(_instant(m, effect, flights), "s")}
+        values = {"t_step": RawQuantity(_estimate_instant(m, effect, flights), "s")}
     return replace(present, values=MappingProxyType(values))
 
 
-def _instant(m: Loaded, effect: str, flights: Sequence[Flight]) -> float:
+def _estimate_instant(m: Loaded, effect: str, flights: Sequence[Flight]) -> float:
     """The most likely instant of a step, s."""
     ranking = _diagnose.diagnose(m.model, m.instrument, flights).ranking
-    own = (p for r in ranking if r.effect == effect for p in r.parameters if p.name == "t_step")
-    return next((p.value for p in own), 0.0)
+    estimates = (p for r in ranking if r.effect == effect for p in r.parameters if p.name == "t_step")
+    return next((p.value for p in estimates), 0.0)
 
 
-def _written(parameters: Sequence[ParameterValue], count: int = PAPER.size) -> dict[str, RawQuantity]:
+def _list_quantities(parameters: Sequence[ParameterValue], count: int = PAPER.size) -> dict[str, RawQuantity]:
     """Calibrated parameters of an effect as they are written to model.toml, ``count`` accelerometers."""
     values: dict[str, RawQuantity] = {}
     for name in dict.fromkeys(p.name for p in parameters):
-        own = [p for p in parameters if p.name == name]
-        each = {p.accelerometer: p.value for p in own}
-        value = each[None] if None in each else tuple(each.get(k, 0.0) for k in range(1, count + 1))
-        values[name] = RawQuantity(value, own[0].unit)
+        entries = [p for p in parameters if p.name == name]
+        table = {p.accelerometer: p.value for p in entries}
+        value = table[None] if None in table else tuple(table.get(k, 0.0) for k in range(1, count + 1))
+        values[name] = RawQuantity(value, entries[0].unit)
     return values
 
 
@@ -404,10 +404,10 @@ def calibrate(
     text = None if mapping is None else mapping_text(Path(mapping))
     c = _calibrate.calibrate(m.model, m.instrument, flights)
     walked = smooth_drift(c.fitted, flights) if drift else None
-    return Kept(_saved(m, c, flights, text) if save else m, c, save, walked)
+    return Kept(_save_calibration(m, c, flights, text) if save else m, c, save, walked)
 
 
-def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | None) -> Loaded:
+def _save_calibration(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | None) -> Loaded:
     d = m.directory
     new = _calibrate.make_saved(c, flights, now())
     step = HistoryStep("calibrate", new.time, after=new.error, flights=MappingProxyType(dict(new.flights)))
@@ -478,12 +478,12 @@ def compensate(
     """
     flights = read_flights(m, flights, gradient=False)
     if calibration == "online":
-        found = _recursive.follow(m, flights, noise=noise, walk=walk, forget=forget)
+        result = _recursive.follow(m, flights, noise=noise, walk=walk, forget=forget)
     else:
-        found = _compensate.compensate(m, flights, calibration, demodulator)
+        result = _compensate.compensate(m, flights, calibration, demodulator)
     if output is not None:
-        found.write(output)
-    return found
+        result.write(output)
+    return result
 
 
 # --- export

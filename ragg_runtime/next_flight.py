@@ -101,18 +101,18 @@ def next_flight(
     promise: dict[str, Any] = {"separations": []}
     if purpose == "calibration":
         f = fit(m.model, m.instrument, observe_flights(flights, m.instrument), candidates=False)
-        wanted = ChannelVariance.of(f)
-        worth = {"A": wanted.weigh_variance, "D": wanted.weigh_volume}[criterion]
-        motion = find_motion(wanted.known, worth, tones, duration)
-        promise |= {"criterion": criterion} | wanted.promise(motion, duration)
+        variance = ChannelVariance.of(f)
+        worth = {"A": variance.weigh_variance, "D": variance.weigh_volume}[criterion]
+        motion = find_motion(variance.known, worth, tones, duration)
+        promise |= {"criterion": criterion} | variance.promise(motion, duration)
     else:
         d = diagnose(m, flights)
         pairs = [(r.effect, o) for r in d.ranking if r.effect in d.found for o in r.indistinguishable_from]
-        asked = Alternatives.of(d.fitted, make_problem(d.fitted), pairs, both=True)
+        alternatives = Alternatives.of(d.fitted, make_problem(d.fitted), pairs, both=True)
         motion = share_evenly(tones)
-        if asked.pairs:
-            motion = find_motion(asked.known, asked.worth, tones, duration)
-            promise = {"separations": [s.as_json() for s in asked.promise(motion, duration)]}
+        if alternatives.pairs:
+            motion = find_motion(alternatives.known, alternatives.worth, tones, duration)
+            promise = {"separations": [s.as_json() for s in alternatives.promise(motion, duration)]}
     return NextFlight(motion, promise, mean, duration, rate, body)
 
 
@@ -158,36 +158,36 @@ MATTER = 1e-3
 class ChannelVariance:
     """How uncertain parameters show in the compensated channels of the motion of the flights.
 
-    ``shown`` (2, n, n): R factors of the mean product of the changes of inline, and of cross, Eo, by a scale of each parameter.
+    ``r_factors`` (2, n, n): R factors of the mean product of the changes of inline, and of cross, Eo, by a scale of each parameter.
     """
 
     known: Knowledge
-    shown: Array
+    r_factors: Array
 
     @staticmethod
     def of(f: Fitted) -> ChannelVariance:
         """Of the first flight of a fit; UserError if it has no channels."""
         x, n, k_ggi = f.prepared[0], f.n_base, f.scales[0]
 
-        def changes(piece: Piece) -> Array:
+        def demodulate_columns(piece: Piece) -> Array:
             o = piece.observation
             volts = combine_output(o, piece.columns[:n])
             g = np.array([demodulate_residual(e, o.record, k_ggi) for e in volts])
             return np.stack([g.real, g.imag], axis=1)[:, :, np.isfinite(g[0])]
 
-        found = np.concatenate([*x.each(changes, whitened=False)], axis=2)  # (n, 2, instants)
-        if not found.shape[2]:
+        changes = np.concatenate([*x.each(demodulate_columns, whitened=False)], axis=2)  # (n, 2, instants)
+        if not changes.shape[2]:
             raise UserError(
                 "no motion can be designed: the flight is too short to demodulate, or its disc does not turn",
                 where=x.observation.name,
                 remedy="give a longer flight of the motion that is to be compensated",
             )
-        shown = np.stack([compute_r_factor(found[:, k]) for k in range(2)]) / np.sqrt(found.shape[2])
-        return ChannelVariance(Knowledge.of(f), np.asarray(shown))
+        r_factors = np.stack([compute_r_factor(changes[:, k]) for k in range(2)]) / np.sqrt(changes.shape[2])
+        return ChannelVariance(Knowledge.of(f), np.asarray(r_factors))
 
     def rms(self, R: Array) -> tuple[float, float]:
         """What the parameters of an R factor add to inline and cross, Eo."""
-        inline, cross = (float(np.linalg.norm(G @ invert_root(R))) for G in self.shown)
+        inline, cross = (float(np.linalg.norm(G @ invert_root(R))) for G in self.r_factors)
         return inline, cross
 
     def weigh_variance(self, R: Array) -> float:
@@ -196,9 +196,9 @@ class ChannelVariance:
 
     def weigh_volume(self, R: Array) -> float:
         """D-criterion: the less volume of the directions that make up the channels' variance by the flights so far, the more."""
-        shown = np.vstack([*self.shown])
-        U, s, _ = np.linalg.svd(shown @ invert_root(self.known.root), full_matrices=False)
-        matter = U[:, s**2 > MATTER * np.sum(s**2)].T @ shown
+        stacked = np.vstack([*self.r_factors])
+        U, s, _ = np.linalg.svd(stacked @ invert_root(self.known.root), full_matrices=False)
+        matter = U[:, s**2 > MATTER * np.sum(s**2)].T @ stacked
         return -2 * float(np.sum(np.log(np.linalg.svd(matter @ invert_root(R), compute_uv=False))))
 
     def promise(self, motion: Sequence[Sinusoid], duration: float) -> dict[str, Any]:
@@ -210,8 +210,8 @@ class ChannelVariance:
             return float(np.linalg.norm(w @ root[when]))
 
         def describe(name: str, accelerometer: int | None, unit: str, w: Array) -> dict[str, Any]:
-            known: dict[str, Any] = {"name": name, "accelerometer": accelerometer, "unit": unit}
-            return known | {when: std(w, when) for when in R}
+            entry: dict[str, Any] = {"name": name, "accelerometer": accelerometer, "unit": unit}
+            return entry | {when: std(w, when) for when in R}
 
         alone = np.diag([q.scale / q.unit_factor for q in columns])
         channels = {"now": self.rms(R["now"]), "planned": self.rms(R["then"])}
@@ -265,24 +265,24 @@ def certify(plan: Json, f: Fitted, calibration: Json) -> dict[str, Any]:
     ``certificate``: of every parameter its value and standard uncertainties; ``certified``: the same of the combinations, and what all
     parameters add to the channels of the first flight.
     """
-    both = [*calibration["combinations"], *calibration["parameters"]]
-    full = [f"{q['effect']}.{q['name']}" if q.get("effect") else q["name"] for q in both]
-    found = {(name, q.get("accelerometer")): q for name, q in zip(full, both, strict=True)}
+    values = [*calibration["combinations"], *calibration["parameters"]]
+    full = [f"{q['effect']}.{q['name']}" if q.get("effect") else q["name"] for q in values]
+    by_label = {(name, q.get("accelerometer")): q for name, q in zip(full, values, strict=True)}
     reached = ChannelVariance.of(f)
-    then = dict(zip(CHANNELS, reached.rms(reached.known.root), strict=True))
-    now, planned = (plan["channels"][when] for when in ("now", "planned"))
-    channels = {n: {"before": now[n], "planned": planned[n], "reached": then[n]} for n in CHANNELS}
+    after = dict(zip(CHANNELS, reached.rms(reached.known.root), strict=True))
+    before, planned = (plan["channels"][when] for when in ("now", "planned"))
+    channels = {n: {"before": before[n], "planned": planned[n], "reached": after[n]} for n in CHANNELS}
     return {
-        "certificate": [_certify_one(q, found) for q in plan["parameters"]],
+        "certificate": [_certify_one(q, by_label) for q in plan["parameters"]],
         "certified": {
             "channels": channels,
-            "combinations": [_certify_one(q, found) for q in plan["combinations"]],
+            "combinations": [_certify_one(q, by_label) for q in plan["combinations"]],
         },
     }
 
 
-def _certify_one(x: Json, found: Mapping[Any, Json]) -> dict[str, Any]:
-    q = found.get((x["name"], x["accelerometer"]))
+def _certify_one(x: Json, calibrated: Mapping[Any, Json]) -> dict[str, Any]:
+    q = calibrated.get((x["name"], x["accelerometer"]))
     if q is None and x["accelerometer"] is not None:
         raise UserError(
             "the plan is of another model: a parameter of it is not fitted",

@@ -85,17 +85,17 @@ def simulate_flight(
     spin: Sequence[str] = (),
 ) -> Flight:
     """As :func:`simulate`, of an instrument."""
-    effects: dict[str, dict[str, Array]] = dict(_parsed(text, instrument) for text in hidden)
+    effects: dict[str, dict[str, Array]] = dict(_parse_effect(text, instrument) for text in hidden)
     form = instrument.form
     if not form.second_order_angles:
         effects.setdefault("second-order-misalignment", {"kappa": np.array(0.0)})
     record, start = None, 0.0
     if motion is None:
-        flown = _drawn(seed, duration, rate, shape)
+        flown = _draw_motion(seed, duration, rate, shape)
     else:
         record = read_flight(motion, instrument.g0, need_output=False, mapping=mapping)
         start = find_start(record, instrument)
-        flown, duration, rate = _recorded(record, start)
+        flown, duration, rate = _take_motion(record, start)
     try:
         with np.errstate(over="ignore", invalid="ignore"):
             s = reference.simulate(
@@ -112,12 +112,12 @@ def simulate_flight(
                 kinematics=form.kinematics,
                 effects=effects,
                 seed=seed,
-                auxiliaries=_auxiliaries(seed, effects, instrument.layout.size, record, start),
+                auxiliaries=_collect_auxiliaries(seed, effects, instrument.layout.size, record, start),
                 turning=parse_turning(spin, instrument.layout, record, start),
             )
-        found = s.flight("simulated", voltages=voltages)
-        there = np.isfinite(list(found.outputs.values()))
-        finite = bool(there.all() if record is None else there.any())  # a record that is flown may have gaps
+        flight = s.flight("simulated", voltages=voltages)
+        valid = np.isfinite(list(flight.outputs.values()))
+        finite = bool(valid.all() if record is None else valid.any())  # a record that is flown may have gaps
     except OverflowError:
         finite = False
     if not finite:
@@ -125,28 +125,28 @@ def simulate_flight(
             "the simulated values are not finite",
             remedy="choose a smaller --noise, --sheet-error, --spin or value of an effect",
         )
-    return found
+    return flight
 
 
 _ROTATIONS: Mapping[int | str, Rotations] = {1: "first-order", 2: "second-order", "exact": "exact"}
 """How the mounting of ``[model] order`` turns in the simulator."""
 
 
-def _auxiliaries(
+def _collect_auxiliaries(
     seed: int, effects: EffectValues, count: int, record: Flight | None, start: float
 ) -> dict[str, Auxiliary]:
     """What every carrier records, and what the effects ask for beyond that; as ``record`` has it, from ``start``, s, on."""
-    asked = {c for e, values in resolve(effects, count).items() for c in channels_needed(e, values)}
+    needed = {c for e, values in resolve(effects, count).items() for c in channels_needed(e, values)}
     rare = further(np.random.default_rng([seed, 14]))
     usual = plausible(np.random.default_rng([seed, 12]))
-    found: dict[str, Auxiliary] = {**usual, **{name: rare[name] for name in rare if name in asked}}
+    channels: dict[str, Auxiliary] = {**usual, **{name: rare[name] for name in rare if name in needed}}
     if record is not None:
         time = record.time - record.time[0] + start
-        found |= {n: RecordedSignal(time, x).value for n, x in record.channels.items() if n in asked}
-    return found
+        channels |= {n: RecordedSignal(time, x).value for n, x in record.channels.items() if n in needed}
+    return channels
 
 
-def _recorded(x: Flight, start: float) -> tuple[reference.MotionSignals, float, float]:
+def _take_motion(x: Flight, start: float) -> tuple[reference.MotionSignals, float, float]:
     """The motion of a flight, from ``start``, s, on, the time, s, in which it was sampled, and its rate, Hz: flown, it has as many
     samples.
     """
@@ -154,7 +154,7 @@ def _recorded(x: Flight, start: float) -> tuple[reference.MotionSignals, float, 
     return reference.recorded_motion(x.time - x.time[0] + start, a, omega), len(x) / x.rate, x.rate
 
 
-def _drawn(seed: int, duration: float, rate: float, shape: str | None) -> reference.MotionSignals:
+def _draw_motion(seed: int, duration: float, rate: float, shape: str | None) -> reference.MotionSignals:
     if duration * rate > MOST_SAMPLES:
         raise UserError(
             "the flight is too long to be simulated",
@@ -165,17 +165,17 @@ def _drawn(seed: int, duration: float, rate: float, shape: str | None) -> refere
     return draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape, linear=IN_FLIGHT)
 
 
-def _parsed(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:
+def _parse_effect(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:
     identifier, _, rest = text.partition(":")
     model = load_packaged()
     effect = model.effect(identifier)
     if effect is None:
-        known = ", ".join(e.id for e in model.candidates)
-        raise UserError("unknown effect to hide", found=repr(identifier), expected=f"one of {known}")
+        ids = ", ".join(e.id for e in model.candidates)
+        raise UserError("unknown effect to hide", found=repr(identifier), expected=f"one of {ids}")
     values: dict[str, Array] = {}
     for part in rest.split(",") if rest else ():
         name, _, numbers = part.partition("=")
-        values[name.strip()] = _numbers(effect, name.strip(), numbers, instrument)
+        values[name.strip()] = _parse_numbers(effect, name.strip(), numbers, instrument)
     if not values:
         raise UserError(
             "the hidden effect has no value",
@@ -186,7 +186,7 @@ def _parsed(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:
     return identifier, values
 
 
-def _numbers(effect: DerivedEffect, name: str, text: str, instrument: Instrument) -> Array:
+def _parse_numbers(effect: DerivedEffect, name: str, text: str, instrument: Instrument) -> Array:
     count, parameters = instrument.layout.size, {q.name: q for q in effect.parameters}
     if name not in parameters:
         raise UserError(f"{effect.id} has no parameter {name!r}", expected=", ".join(parameters))
@@ -196,10 +196,10 @@ def _numbers(effect: DerivedEffect, name: str, text: str, instrument: Instrument
     except ValueError:
         raise UserError("not a number", where=f"--effect {effect.id}", found=repr(text)) from None
     if len(raw) not in ((1,) if q.shared else (1, count)):
-        wanted = "one value" if q.shared else f"one value or {'four' if count == 4 else count} joined by /"
-        raise UserError(f"{effect.id}: {name} takes {wanted}", found=repr(text))
-    known = units(instrument.g0)
-    si = np.asarray(known.to_si(raw, q.unit, known.base_unit(q.unit)))
+        expected = "one value" if q.shared else f"one value or {'four' if count == 4 else count} joined by /"
+        raise UserError(f"{effect.id}: {name} takes {expected}", found=repr(text))
+    u = units(instrument.g0)
+    si = np.asarray(u.to_si(raw, q.unit, u.base_unit(q.unit)))
     return si if len(si) == count and not q.shared else si[0]
 
 
@@ -208,30 +208,30 @@ FORM = "[DISC:]HZ[,RAD@HZ[@RAD]]..."
 
 
 def parse_turning(
-    given: Sequence[str], layout: Layout, motion: Flight | None = None, start: float = 0.0
+    texts: Sequence[str], layout: Layout, motion: Flight | None = None, start: float = 0.0
 ) -> dict[str, Turning]:
-    """Name of a disc -> how it turns; ``given`` are texts FORM, for the disc named or for all, before the angles of
+    """Name of a disc -> how it turns; ``texts`` are texts FORM, for the disc named or for all, before the angles of
     ``motion``, which begins at ``start``, s.
     """
-    found = {}
+    turnings = {}
     if motion is not None:
         time = motion.time - motion.time[0] + start
         angles = {d.name: d.angle_column for d in layout.discs if d.angle_column in motion.channels}
-        found = {name: Turning.of_record(time, motion.channels[c]) for name, c in angles.items()}
-    for text in given:
+        turnings = {name: Turning.of_record(time, motion.channels[c]) for name, c in angles.items()}
+    for text in texts:
         name, colon, profile = text.rpartition(":")
-        known = [d.name for d in layout.discs]
-        if colon and name not in known:
+        names = [d.name for d in layout.discs]
+        if colon and name not in names:
             raise UserError(
                 f"the instrument has no disc {name!r}",
                 where="--spin",
-                expected=", ".join(known) or "no name: the instrument has one disc",
+                expected=", ".join(names) or "no name: the instrument has one disc",
             )
-        found |= dict.fromkeys([name] if colon else known, _profile(profile, text))
-    return found
+        turnings |= dict.fromkeys([name] if colon else names, _parse_profile(profile, text))
+    return turnings
 
 
-def _profile(profile: str, text: str) -> Turning:
+def _parse_profile(profile: str, text: str) -> Turning:
     steady, *swings = profile.split(",")
     try:
         parts = [tuple(float(x) for x in s.split("@")) for s in swings]

@@ -86,18 +86,18 @@ def new(path: Path | str, source: Path | str | None = None, mapping: Path | str 
     UserError
         If the sheet or the mapping is invalid, or the directory cannot be made.
     """
-    kept = None if mapping is None else mapping_text(Path(mapping))
+    mapping_toml = None if mapping is None else mapping_text(Path(mapping))
     text = _example_text() if source is None else read_text(Path(source))
     completed = with_full_kinematics(text)
     instrument = parse_instrument(completed, Path(source) if source else None)
-    made = create_model_dir(
+    directory = create_model_dir(
         path,
         completed,
         generated=derive.list_files(instrument),
         history=(HistoryStep("new", now(), text=completed),),
-        mapping=kept,
+        mapping=mapping_toml,
     )
-    m = load_state(made)
+    m = load_state(directory)
     return m if completed == text else replace(m, notes=(*m.notes, FULL_KINEMATICS))
 
 
@@ -193,32 +193,32 @@ def read_flights(
     UserError
         If a file cannot be read or does not fit the instrument, or is given twice.
     """
-    given = list(paths) if isinstance(paths, list | tuple) else [paths]
-    how = mapping_of(m, mapping) if any(not isinstance(x, Flight) for x in given) else None
-    found: list[Flight] = []
-    for n, one in enumerate(given, 1):
-        if isinstance(one, Flight):
-            found.append(one)
+    sources = list(paths) if isinstance(paths, list | tuple) else [paths]
+    mapped = mapping_of(m, mapping) if any(not isinstance(x, Flight) for x in sources) else None
+    flights: list[Flight] = []
+    for n, source in enumerate(sources, 1):
+        if isinstance(source, Flight):
+            flights.append(source)
             continue
-        read = _read_flights(
-            one,
+        records = _read_flights(
+            source,
             m.instrument.g0,
             accelerometers=m.instrument.layout,
-            mapping=how,
+            mapping=mapped,
             leave=frozenset() if gradient else frozenset(GRADIENT),
-            name="flight" if len(given) == 1 else f"flight {n}",
+            name="flight" if len(sources) == 1 else f"flight {n}",
         )
-        found += [screen(m.model, m.instrument, x) for x in read]
-    distinct(found)
-    return found
+        flights += [screen(m.model, m.instrument, x) for x in records]
+    distinct(flights)
+    return flights
 
 
-def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:
+def mapping_of(m: Loaded, path: Path | str | None) -> Mapped | None:
     """The mapping that is given, else the one that is kept with the model, else none."""
-    if given is not None:
-        return read_mapping(Path(given))
-    own = m.directory.mapping
-    return None if own is None else replace(read_mapping(own), kept=True)
+    if path is not None:
+        return read_mapping(Path(path))
+    kept = m.directory.mapping
+    return None if kept is None else replace(read_mapping(kept), kept=True)
 
 
 def keep_mapping(m: Loaded, text: str, *, replace: bool) -> None:
@@ -283,6 +283,6 @@ class Source:
             **({"model_digest_before": compute_digest(self.before.directory.text)} if self.before else {}),
             "derivation_digest": self.m.model.digest,
         }
-        read = [(x.name if x.path is None else str(x.path), x.digest) for x in self.flights]
+        flights = [(x.name if x.path is None else str(x.path), x.digest) for x in self.flights]
         elsewhere = [(path, digest) for _, path, digest in self.files]
-        return {"notes": self.notes, "provenance": provenance(self.command, model, [*read, *elsewhere])}
+        return {"notes": self.notes, "provenance": provenance(self.command, model, [*flights, *elsewhere])}

@@ -64,16 +64,16 @@ def compare(
     names = [x.name for x in records]
     then, again = (next_command(v, model_dir, records, mapping) for v in ("diagnose", "calibrate"))
     with working("comparing" if frozen else "calibrating and comparing", "compare", records):
-        held = api.compare_frozen(m, records) if frozen else None
-        c = api.compare(m, records) if held is None else held.comparison
-    result = c.as_json() if held is None else held.as_json()
-    if held is None:
-        said = describe.describe_comparison(result, names, then)
+        saved = api.compare_frozen(m, records) if frozen else None
+        c = api.compare(m, records) if saved is None else saved.comparison
+    result = c.as_json() if saved is None else saved.as_json()
+    if saved is None:
+        sections = describe.describe_comparison(result, names, then)
     else:
-        said = describe.describe_held(result, names, then, again)
+        sections = describe.describe_held(result, names, then, again)
     title = f"{m.name}, frozen, and {', '.join(names)}" if frozen else ""
     source = source_of(m, records, further=odd, title=title)
-    conclude(result, said, source, lambda: pages.write_comparison(c, source, held))
+    conclude(result, sections, source, lambda: pages.write_comparison(c, source, saved))
 
 
 def _calibration_notes(m: Loaded) -> list[str]:
@@ -98,9 +98,9 @@ def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], ma
         d = api.diagnose(m, records, allowed)
     result = d.as_json()
     then = next_command("add", model_dir, records, mapping, d.found[0]) if d.found else ""
-    said = describe.describe_diagnosis(result, then)
+    sections = describe.describe_diagnosis(result, then)
     source = source_of(m, records)
-    conclude(result, said, source, lambda: pages.write_diagnosis(d, source))
+    conclude(result, sections, source, lambda: pages.write_diagnosis(d, source))
 
 
 @click.command(cls=Command, report=True)
@@ -126,10 +126,10 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
             steps = [s.as_json() for s in result.loaded.directory.history]
             return pages.write_addition(steps, result.before, result.after, source)
 
-        found = result.as_json()
-        said = describe.describe_addition(found, [e.id for e in result.loaded.model.effects], check, use)
+        data = result.as_json()
+        sections = describe.describe_addition(data, [e.id for e in result.loaded.model.effects], check, use)
         source = source_of(result.loaded, records, before=m, title=f"{m.name}: {effect} added")
-        conclude(found, said, source, page)
+        conclude(data, sections, source, page)
 
     with working(f"deriving the model with {effect}{', calibrating' if flights else ''}", "add", records):
         result = api.add(m, effect, records, tell)
@@ -184,15 +184,15 @@ def next_motion(
             "a run sheet needs --for calibration", where="--run-sheet", expected="--for calibration"
         )
     m = load(model_dir)
-    records, most = read(m, flights, mapping), api.parse_limits(m, limits)
-    found = next_flight.next_flight(m, records, most, **options)
+    records, largest = read(m, flights, mapping), api.parse_limits(m, limits)
+    design = next_flight.next_flight(m, records, largest, **options)
     if run_sheet is not None:
-        write_text(Path(run_sheet), next_flight.write_run_sheet(found))
-    write_flight(found.motion(), Path(output))
-    said = describe_other.describe_next_motion(found.as_json(), output)
+        write_text(Path(run_sheet), next_flight.write_run_sheet(design))
+    write_flight(design.motion(), Path(output))
+    sections = describe_other.describe_next_motion(design.as_json(), output)
     source = source_of(m, records)
-    page = lambda: pages.write_info(said, [found.motion()], source, "The next motion")  # noqa: E731
-    conclude(found.as_json(), said, source, page)
+    page = lambda: pages.write_info(sections, [design.motion()], source, "The next motion")  # noqa: E731
+    conclude(design.as_json(), sections, source, page)
 
 
 @click.command(cls=Command, report=True)
@@ -212,16 +212,16 @@ def calibrate(
     planned = None if plan is None else next_flight.read_plan(plan)
     records = read(m, flights, mapping)
     with working("calibrating", "compare", records):
-        kept = api.calibrate(m, records, save, mapping, drift=drift)
-    found = kept.as_json()
+        c = api.calibrate(m, records, save, mapping, drift=drift)
+    result = c.as_json()
     if planned is not None:
-        found |= next_flight.certify(planned, kept.calibrated.fitted, found)
-    drifts = drift and found["drifting"]["rates"]
+        result |= next_flight.certify(planned, c.calibrated.fitted, result)
+    drifts = drift and result["drifting"]["rates"]
     use = f"{next_command('compensate', model_dir, records)} -o compensated.csv --calibration "
-    then = f"{use}{'smoothed' if drifts else 'frozen'}" if drifts or kept.saved else ""
-    said = describe_other.describe_calibration(found, [x.name for x in records], then)
-    source = source_of(kept.loaded, records)
-    conclude(found, said, source, lambda: pages.write_calibration(said, kept.calibrated.fitted, source))
+    then = f"{use}{'smoothed' if drifts else 'frozen'}" if drifts or c.saved else ""
+    sections = describe_other.describe_calibration(result, [x.name for x in records], then)
+    source = source_of(c.loaded, records)
+    conclude(result, sections, source, lambda: pages.write_calibration(sections, c.calibrated.fitted, source))
 
 
 @click.command(cls=Command, report=True)
@@ -277,19 +277,19 @@ def compensate(
             "--noise, --walk and --forget need --calibration online", expected="--calibration online"
         )
     m = load(model_dir)
-    kept = calibration == "frozen" or (calibration == "online" and m.directory.calibration is not None)
-    odd = _calibration_notes(m) if kept else []
+    uses_saved = calibration == "frozen" or (calibration == "online" and m.directory.calibration is not None)
+    odd = _calibration_notes(m) if uses_saved else []
     records = read(m, flights, mapping, gradient=False)
     with working("compensating", "compare", records):
         c = api.compensate(
             m, records, calibration, demodulator, out, noise=noise, walk=walk, forget=forget or float("inf")
         )
     result = c.as_json()
-    made = describe_other.describe_online if calibration == "online" else describe_other.describe_compensation
-    said = made(result, output)
+    say = describe_other.describe_online if calibration == "online" else describe_other.describe_compensation
+    sections = say(result, output)
     source = source_of(m, records, further=[*result.get("notes", ()), *odd])
-    page = lambda: pages.write_compensation(said, c.series, source)  # noqa: E731
-    conclude(result | {"output": str(out)}, said, source, page)
+    page = lambda: pages.write_compensation(sections, c.series, source)  # noqa: E731
+    conclude(result | {"output": str(out)}, sections, source, page)
 
 
 @click.command(cls=Command, json=False)
@@ -314,9 +314,9 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
             remedy="see: ragg export --help",
         )
     exported = api.contents(load(model_dir))
-    written = api.write_export(exported, folder, form)
+    files = api.write_export(exported, folder, form)
     then = f" Build with: make -C {printable(str(folder))}" if form == "c" else ""
-    click.echo(f"{printable(str(folder))}: {len(written)} files.{then}")
+    click.echo(f"{printable(str(folder))}: {len(files)} files.{then}")
     click.echo("\n".join([f"Values: {exported.origin}", *exported.limits()]))
 
 

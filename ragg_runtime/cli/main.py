@@ -50,9 +50,9 @@ class _Commands(click.Group):
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         for title, names in GROUPS.items():
-            found = [(name, self.get_command(ctx, name)) for name in names]
+            commands = [(name, self.get_command(ctx, name)) for name in names]
             with formatter.section(title):
-                formatter.write_dl([(n, c.get_short_help_str(60)) for n, c in found if c and not c.hidden])
+                formatter.write_dl([(n, c.get_short_help_str(60)) for n, c in commands if c and not c.hidden])
 
 
 @click.group(

@@ -75,11 +75,11 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
     """Make a model directory from a test sheet."""
     m = show_notes(api.new(model_dir, source, mapping), model_dir)
     place, effects = one_line(str(m.directory.path)), [e.id for e in m.model.effects]
-    said = describe.say_plainly(
+    sections = describe.say_plainly(
         f"{place}: created; {describe.write_effects(effects)}",
         f"Edit {place}/model.toml, then: ragg compare {place} FLIGHT",
     )
-    conclude({"model": place, "effects": effects}, said, source_of(m))
+    conclude({"model": place, "effects": effects}, sections, source_of(m))
 
 
 @click.command(cls=Command)
@@ -88,11 +88,11 @@ def effects(identifier: str | None) -> None:
     """List the catalogue of effects; with ID, one in full."""
     from ragg_runtime.model.derive import effects as catalogue
 
-    found = catalogue()
+    entries = catalogue()
     if identifier is None:
-        conclude(found.as_json(), found.sections())
+        conclude(entries.as_json(), entries.sections())
     else:
-        conclude(dict(found[identifier]), describe_other.describe_effect(found[identifier]))
+        conclude(dict(entries[identifier]), describe_other.describe_effect(entries[identifier]))
 
 
 @click.command(cls=Command)
@@ -103,9 +103,9 @@ def remove(model_dir: Path, effect: str) -> None:
     before = load(model_dir)
 
     def tell(m: Loaded) -> None:
-        left = [e.id for e in m.model.effects]
-        said = describe.say_plainly(f"removed {effect}; {describe.write_effects(left)}")
-        conclude({"effect": effect, "effects": left}, said, source_of(m, before=before))
+        ids = [e.id for e in m.model.effects]
+        sections = describe.say_plainly(f"removed {effect}; {describe.write_effects(ids)}")
+        conclude({"effect": effect, "effects": ids}, sections, source_of(m, before=before))
 
     api.remove(before, effect, tell)
 
@@ -121,12 +121,12 @@ def history(model_dir: Path) -> None:
     steps = [s.as_json() for s in d.history]
     model = {"model": str(d.path), "model_digest": compute_digest(d.text)}
     result = {"steps": steps, "provenance": provenance(command_line(), model)}
-    said = (Section(table=describe.tabulate_history(steps)),)
+    sections = (Section(table=describe.tabulate_history(steps)),)
 
     def page() -> str:
         return pages.write_history(steps, api.Source(command_line(), title=f"{d.path.name}: history"))
 
-    conclude(result, said, page=page)
+    conclude(result, sections, page=page)
 
 
 @click.command(cls=Command)
@@ -197,18 +197,18 @@ def info(flight: Path, mapping: Path | None) -> None:
     from ragg_runtime.io.files import PAPER_G, describe_flight
     from ragg_runtime.io.mapping import read_mapping
 
-    how = None if mapping is None else read_mapping(mapping)
-    found = describe_flight(flight, how)
-    said = describe_other.describe_flight_file(found)
+    mapped = None if mapping is None else read_mapping(mapping)
+    contents = describe_flight(flight, mapped)
+    sections = describe_other.describe_flight_file(contents)
 
     def page() -> str:
-        usable = not any(r["refused"] for r in found["records"])
-        records = io.read_flights(flight, PAPER_G, mapping=how) if usable else []
-        read = [(found["path"], found["path"], found["sha256"])]
-        source = api.Source(command_line(), files=read, title=flight.name)
-        return pages.write_info(said, records, source)
+        usable = not any(r["refused"] for r in contents["records"])
+        records = io.read_flights(flight, PAPER_G, mapping=mapped) if usable else []
+        digests = [(contents["path"], contents["path"], contents["sha256"])]
+        source = api.Source(command_line(), files=digests, title=flight.name)
+        return pages.write_info(sections, records, source)
 
-    conclude(found, said, page=page)
+    conclude(contents, sections, page=page)
 
 
 @click.command(cls=Command)
@@ -245,25 +245,25 @@ def map_command(flight: Path, output: str | None) -> None:
     """
     from ragg_runtime.io.draft import draft_mapping
 
-    made = draft_mapping(flight)
+    draft = draft_mapping(flight)
     if output is None:
-        click.echo(printable(made.text), nl=False)
+        click.echo(printable(draft.text), nl=False)
     else:
         if Path(output).exists():
             raise UserError(
                 "the mapping exists already", where=output, remedy="choose another name or remove it first"
             )
-        write_text(Path(output), made.text)
+        write_text(Path(output), draft.text)
         click.echo(printable(f"{output}: written; check it, then use it: --map {output}"), err=True)
-    guesses = [name for name, rating in made.sure.items() if rating == "guess"]
+    guesses = [name for name, rating in draft.sure.items() if rating == "guess"]
     if guesses:
         click.echo(f"guessed from units or unusual names: {', '.join(guesses)}", err=True)
-    for note in made.notes:
+    for note in draft.notes:
         click.echo(one_line(f"note: {note}"), err=True)
-    if made.questions:
-        are = "is" if len(made.questions) == 1 else "are"
-        click.echo(f'{count(len(made.questions), "question")} {are} open, marked with "?":', err=True)
-        for question in made.questions:
+    if draft.questions:
+        are = "is" if len(draft.questions) == 1 else "are"
+        click.echo(f'{count(len(draft.questions), "question")} {are} open, marked with "?":', err=True)
+        for question in draft.questions:
             click.echo(printable(f"  {question}"), err=True)
 
 
@@ -322,12 +322,12 @@ def run_demo(output: Path, flight: Path | None = None) -> None:
     _run("diagnose", model, str(flight), "--report", diagnosis)
     _run("add", model, HIDDEN[0], str(flight), "--report", report, "--json", added)
     _run("history", model)
-    said = describe.say_plainly(
-        *_recovered(json.loads(Path(added).read_text("utf-8"))),
+    sections = describe.say_plainly(
+        *_describe_recovery(json.loads(Path(added).read_text("utf-8"))),
         f"Reports: {diagnosis}  {report}",
         f"In a browser: ragg studio {model} {flight}",
     )
-    click.echo(f"\n{render_text(said)}")
+    click.echo(f"\n{render_text(sections)}")
 
 
 def _run(*words: str) -> None:
@@ -335,7 +335,7 @@ def _run(*words: str) -> None:
     cli.main(args=list(words), prog_name="ragg", standalone_mode=False, obj=list(words))
 
 
-def _recovered(added: Mapping[str, Any]) -> list[str]:
+def _describe_recovery(added: Mapping[str, Any]) -> list[str]:
     """What was hidden and what was found, of the combination of accelerometers that the record determines best."""
     effect, _, values = HIDDEN
     q = max(added["combinations"], key=describe.significance)

@@ -64,10 +64,10 @@ class Finite(click.FloatRange):
     """A number in a range: neither infinite nor none."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        found = super().convert(value, param, ctx)
-        if not math.isfinite(found):
+        number = super().convert(value, param, ctx)
+        if not math.isfinite(number):
             self.fail(f"{value!r} is not a finite number", param, ctx)
-        return found
+        return number
 
 
 PLACE = click.Path(path_type=Path)
@@ -138,12 +138,12 @@ class Command(click.Command):
                 outputs.append((Path(value), p.type.records))
             elif isinstance(p.type, click.Path) and value is not None:
                 inputs += map(Path, value if p.multiple or p.nargs == -1 else (value,))
-        known: list[Path] = []
+        checked: list[Path] = []
         for path, records in outputs:
             _check_output(path, inputs, records=records)
-            if any(_is_same(path, x) for x in known):
+            if any(_is_same(path, x) for x in checked):
                 raise UserError("two results would be written to one file", where=path)
-            known.append(path)
+            checked.append(path)
 
 
 def find_wanted(option: str) -> Any:
@@ -177,9 +177,9 @@ def working(text: str, command: str, flights: Sequence[Flight]) -> Iterator[None
         yield
 
 
-def source_of(m: Loaded, flights: Sequence[Flight] = (), **more: Any) -> Source:
-    """What the command that runs makes its result from; ``more``: further fields."""
-    return api.Source(command_line(), m, flights, **more)
+def source_of(m: Loaded, flights: Sequence[Flight] = (), **fields: Any) -> Source:
+    """What the command that runs makes its result from; ``fields``: further fields."""
+    return api.Source(command_line(), m, flights, **fields)
 
 
 def conclude(
@@ -210,9 +210,9 @@ def conclude(
             write_text(Path(report), page())
         click.echo(one_line(f"report: {report}"), err=True)
     if document is not None:
-        whole = {"provenance": provenance(command_line())} | dict(result)
-        whole |= {} if source is None else source.as_json()
-        text = json.dumps(whole, indent=1, allow_nan=False)
+        content = {"provenance": provenance(command_line())} | dict(result)
+        content |= {} if source is None else source.as_json()
+        text = json.dumps(content, indent=1, allow_nan=False)
         if document in STDOUT:
             click.echo(text)
             return

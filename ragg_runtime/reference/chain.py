@@ -18,10 +18,10 @@ from ragg_runtime.reference.geometry import (
     Taylor,
     carried,
     carried_rigidly,
+    disc_attitude,
     frame_rotation,
     mount,
     spun,
-    standing,
 )
 from ragg_runtime.reference.gravity import Gravity
 from ragg_runtime.reference.motion import MotionSignals, MotionState, Turning
@@ -84,7 +84,7 @@ class Chain:
     @cached_property
     def standing(self) -> tuple[Array | None, ...]:
         """How each disc is oriented in the measurement frame."""
-        return tuple(standing(d) for d in self.instrument.layout.discs)
+        return tuple(disc_attitude(d) for d in self.instrument.layout.discs)
 
     def voltages(self, time: Array, angle_error: Array) -> Array:
         """V_1 ... V_n without noise, (n, N) V, at (N,) s; ``angle_error`` (N,) rad: random part of phi."""
@@ -105,9 +105,9 @@ class Chain:
         tau = transducer.lags(self.effects, self.size)
         shaken = force.vibration(self.effects, "vibration-rectification", "P")
         V = np.empty((self.size, time.size))
-        now = self._instant(time, earlier, angle_error)
+        instant = self._instant(time, earlier, angle_error)
         for j in range(self.size):
-            V[j] = self._average(j, now, shaken)
+            V[j] = self._average(j, instant, shaken)
         for lag in np.unique(tau[tau > 0]):
             group = np.flatnonzero(tau == lag)
             # Adding the difference to the present, rather than the past itself, keeps a tiny lag accurate.
@@ -121,8 +121,8 @@ class Chain:
 
     def forces(self, time: Array) -> Array:
         """f_x, f_y, f_z of the accelerometers, (n, 3, N) m/s^2, at (N,) s."""
-        now, still = self._instant(time, 0.0, np.zeros(time.size)), np.zeros((3, 1))
-        return np.array([self._nominal_force(j, *self._mount(j), now, still)[0] for j in range(self.size)])
+        state, shake = self._instant(time, 0.0, np.zeros(time.size)), np.zeros((3, 1))
+        return np.array([self._nominal_force(j, *self._mount(j), state, shake)[0] for j in range(self.size)])
 
     def scale(self, time: Array) -> Array:
         """k_VI K1 of the accelerometers as they are at the time, (n, N) V/(m/s^2)."""
@@ -155,22 +155,22 @@ class Chain:
     def _angles(self, time: Array, delay: float, error: Array) -> tuple[Taylor, ...]:
         """The true angle of each disc, (N,) rad each."""
         past = time - delay
-        found = [geometry.disc_angle(t.at(time, delay), past, error, self.effects) for t in self.turning]
+        angles = [geometry.disc_angle(t.at(time, delay), past, error, self.effects) for t in self.turning]
         if "spin-servo" in self.effects:  # the disc falls behind where the platform is turned about its axis
             near = [self.motion.at(time, delay - n * _STEP).omegadot for n in range(-2, 3)]
             for k, d in enumerate(self.instrument.layout.discs):
                 about = np.stack([np.asarray(d.axis) @ m for m in near])
                 turning = Taylor(about[2], _FIRST @ about / _STEP, _SECOND @ about / _STEP**2)
-                found[k] += turning * -float(self.effects["spin-servo"]["c"])
-        return tuple(found)
+                angles[k] += turning * -float(self.effects["spin-servo"]["c"])
+        return tuple(angles)
 
     def _auxiliaries_at(self, time: Array) -> dict[str, Array]:
-        found = {name: channel(time) for name, channel in self.auxiliaries.items()}
+        values = {name: channel(time) for name, channel in self.auxiliaries.items()}
         if "thermal-lag" in self.effects:
             temperature = self.auxiliaries["temperature"]
             change = temperature(time + _WARMING) - temperature(time - _WARMING)
-            found[transducer.RATE_OF_TEMPERATURE] = change / (2 * _WARMING)
-        return found
+            values[transducer.RATE_OF_TEMPERATURE] = change / (2 * _WARMING)
+        return values
 
     def _average(self, j: int, instant: Instant, shaken: tuple[tuple[Array, float], ...]) -> Array:
         """Voltage of accelerometer j, averaged over the instances of the unrecorded vibration."""
@@ -271,18 +271,18 @@ class Chain:
         """Eq. 49 at position r (3, N), or the specific force of a point moving like r, and Eq. 50: along the triad."""
         centre = self._centre(j, instant)
         r = _lifted(r, centre)
-        m, here = instant.motion, r.value
-        of_platform = carried_rigidly(here, m.omega, m.omegadot)
+        m, position = instant.motion, r.value
+        of_platform = carried_rigidly(position, m.omega, m.omegadot)
         f = m.a + shake + of_platform
         if self.spin:
             f = f + self.spin * (carried(r, m.omega, m.omegadot) - of_platform)
         if centre is not None and self.spin != 1:  # the path of the centre counts in any kinematics
-            still = carried_rigidly(centre.value, m.omega, m.omegadot)
-            f = f + (1 - self.spin) * (carried(centre, m.omega, m.omegadot) - still)
+            rigid = carried_rigidly(centre.value, m.omega, m.omegadot)
+            f = f + (1 - self.spin) * (carried(centre, m.omega, m.omegadot) - rigid)
         if self.gravity is not None:
-            f = f - self.gravity.difference(instant.time, here)
-        f = f - force.attraction(here, instant.auxiliaries, self.effects)
-        f = f + force.jittered(here, instant.auxiliaries, self.effects)
+            f = f - self.gravity.difference(instant.time, position)
+        f = f - force.attraction(position, instant.auxiliaries, self.effects)
+        f = f + force.jittered(position, instant.auxiliaries, self.effects)
         x, y, z = (np.sum(f * tau.value, axis=0) for tau in triad)
         return x, y, z
 

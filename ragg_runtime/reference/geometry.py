@@ -105,14 +105,14 @@ def mount(place: AccelerometerPosition, beta_x: float, beta_z: float, rotations:
     return Mount(arm=axes @ about(X, -beta_x, rotations) @ Y, triad=turned.T, lift=place.height * Z)
 
 
-def standing(disc: Disc) -> Array | None:
+def disc_attitude(disc: Disc) -> Array | None:
     """(3, 3): takes a disc from where z is its axis and x its angle 0 to where it is; ``None``: it is there."""
     if disc.level:
         return None
     axis, zero = np.array(disc.axis), np.array(disc.zero)
     leaning = least_rotation(Z, axis, X)
-    now = leaning @ X
-    twist = float(np.arctan2(axis @ np.cross(now, zero), now @ zero))
+    x_axis = leaning @ X
+    twist = float(np.arctan2(axis @ np.cross(x_axis, zero), x_axis @ zero))
     return about(axis, twist) @ leaning
 
 

@@ -122,8 +122,8 @@ class RecordedSignal:
     def _pieces(self) -> tuple[Array, Array]:
         """Knots (n + 1,) and coefficients (6, n); the spline repeats its end knots, and those pieces are empty."""
         pieces = PPoly.from_spline(make_interp_spline(self.time, self.samples, k=5).tck)
-        kept = np.diff(pieces.x) > 0
-        return np.append(pieces.x[:-1][kept], pieces.x[-1]), pieces.c[:, kept]
+        nonempty = np.diff(pieces.x) > 0
+        return np.append(pieces.x[:-1][nonempty], pieces.x[-1]), pieces.c[:, nonempty]
 
     def _evaluate(self, time: Array, shift: float, derivative: int) -> Array:
         knots, c = self._pieces
@@ -213,10 +213,10 @@ class Turning:
     @classmethod
     def of_record(cls, time: Array, angle: Array) -> Turning:
         """As an encoder saw it: ``angle`` (N,) rad, in which whole turns may be missing, at ``time`` (N,) s."""
-        whole = np.unwrap(angle)
-        frequency = float((whole[-1] - whole[0]) / (time[-1] - time[0]) / (2 * np.pi))
+        unwrapped = np.unwrap(angle)
+        frequency = float((unwrapped[-1] - unwrapped[0]) / (time[-1] - time[0]) / (2 * np.pi))
         steady = 2 * np.pi * frequency * (time - time[0])
-        rest = RecordedSignal(time, whole - whole[0] - steady)
+        rest = RecordedSignal(time, unwrapped - unwrapped[0] - steady)
         start = float(angle[0] - 2 * np.pi * turns(frequency, time[0]))
         return cls(frequency=frequency, start=start, recorded=rest)
 
@@ -224,16 +224,16 @@ class Turning:
         """The angle and its rates at ``time - delay``, (N,) s; whole turns of the steady part are dropped."""
         phi = disc_angle(self.frequency, time, delay)
         steady = np.full(time.shape, 2 * np.pi * self.frequency)
-        found = Taylor(phi + self.start if self.start else phi, steady, np.zeros(time.shape))
+        angle = Taylor(phi + self.start if self.start else phi, steady, np.zeros(time.shape))
         for amplitude, f, phase in self.swings:
             rate = 2 * np.pi * f
             beat = 2 * np.pi * (turns(f, time) - turns(f, delay)) + phase
             swing = Taylor(beat, np.full(time.shape, rate), np.zeros(time.shape)).sine()
-            found = found + swing * amplitude
+            angle = angle + swing * amplitude
         if self.recorded is not None:
-            of = self.recorded
-            found = found + Taylor(of.value(time, delay), of.rate(time, delay), of.acceleration(time, delay))
-        return found
+            x = self.recorded
+            angle = angle + Taylor(x.value(time, delay), x.rate(time, delay), x.acceleration(time, delay))
+        return angle
 
     def encoder(self, time: Array) -> Array:
         """What an encoder reads, (N,) rad, between -pi and pi."""

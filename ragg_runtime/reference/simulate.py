@@ -17,7 +17,7 @@ from ragg_runtime.io import Flight
 from ragg_runtime.reference.chain import Auxiliary, Chain
 from ragg_runtime.reference.effects import EffectValues, Injected, channels_needed, resolve
 from ragg_runtime.reference.effects.geometry import Kinematics, random_angle, spin_share
-from ragg_runtime.reference.effects.memory import MEMORIES, remembered, swallowed
+from ragg_runtime.reference.effects.memory import MEMORIES, find_resonance_loss, list_memories
 from ragg_runtime.reference.effects.sensing import record_motion, record_output
 from ragg_runtime.reference.effects.transducer import REFERENCE_PRESSURE, REFERENCE_TEMPERATURE
 from ragg_runtime.reference.geometry import Rotations
@@ -184,7 +184,7 @@ def simulate(
         spin=spin_share(kinematics, injected),
         misalignment=misalignment or ("exact" if rotations == "exact" else "first-order"),
     )
-    true = _remembering(chain, time)
+    true = _add_memories(chain, time)
     clean, added = _clean(true, time, rate, seed), _draw_noise(noise, true, time, rate, seed)
 
     def record_outputs(v: Array) -> dict[str, Array]:
@@ -202,20 +202,18 @@ def simulate(
     )
 
 
-def _remembering(chain: Chain, time: Array) -> Chain:
+def _add_memories(chain: Chain, time: Array) -> Chain:
     """The chain that knows what it has to remember of the flight: what it would do without these effects."""
-    own = {e: v for e, v in chain.effects.items() if e in MEMORIES}
+    memories = {e: v for e, v in chain.effects.items() if e in MEMORIES}
     plain = replace(chain, effects={e: v for e, v in chain.effects.items() if e not in MEMORIES})
-    if not own or len(time) < 2:
+    if not memories or len(time) < 2:
         return plain
 
     def currents(t: Array) -> Array:
         return plain.voltages(t, np.zeros(t.size)) / plain.scale(t)
 
-    return replace(
-        chain,
-        auxiliaries={**chain.auxiliaries, **remembered(own, plain.forces, currents, chain.auxiliaries, time)},
-    )
+    series = list_memories(memories, plain.forces, currents, chain.auxiliaries, time)
+    return replace(chain, auxiliaries={**chain.auxiliaries, **series})
 
 
 def _clean(chain: Chain, time: Array, rate: float, seed: int) -> Array:
@@ -226,7 +224,7 @@ def _clean(chain: Chain, time: Array, rate: float, seed: int) -> Array:
         part = slice(begin, begin + _CHUNK)
         clean[:, part] = chain.voltages(time[part], error[part])
     if resonance := chain.effects.get("accelerometer-resonance"):
-        clean -= swallowed(resonance, lambda t: chain.voltages(t, np.zeros(t.size)), time)
+        clean -= find_resonance_loss(resonance, lambda t: chain.voltages(t, np.zeros(t.size)), time)
     return clean
 
 

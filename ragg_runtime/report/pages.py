@@ -44,8 +44,8 @@ def _find_renderer() -> Callable[[Plot], str]:
         missing = missing_package(error)
         if missing is None:
             raise
-        said = html.escape(f"no figure: {missing.what} ({missing.remedy})")
-        return lambda plot: f"<p>{said}</p>"
+        text = html.escape(f"no figure: {missing.what} ({missing.remedy})")
+        return lambda plot: f"<p>{text}</p>"
     return draw_plot
 
 
@@ -56,9 +56,9 @@ def render_page(kind: str, sections: Sequence[Section], source: Source, f: Fitte
     """
     if notes := tuple(source.notes):
         sections = [*sections, Section("What was done to the record", notes, detail=len(notes) > 3)]
-    first, *others = sections
+    first, *further = sections
     draw = _find_renderer()
-    used = ", ".join(f"{n} {v}" for n, v in list_versions().items() if v != MISSING)
+    libraries = ", ".join(f"{n} {v}" for n, v in list_versions().items() if v != MISSING)
     model = f.model if f is not None else source.m and source.m.model
     page = make_environment("ragg_runtime.report", html=True).get_template("page.html.j2")
     return numbers.clean(
@@ -66,11 +66,11 @@ def render_page(kind: str, sections: Sequence[Section], source: Source, f: Fitte
             kind=kind,
             source=source,
             first=render_html([first], draw),
-            others=render_html(others, draw),
+            others=render_html(further, draw),
             facts=[
                 *(panels.describe_record(f) if f is not None else ()),
                 ("derived model", model and model.digest),
-                ("versions", used),
+                ("versions", libraries),
             ],
         )
     )
@@ -80,11 +80,11 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 Json = Mapping[str, Any]
 
 
-def _with_plots(s: Section, *plots: Plot | None) -> Section:
+def _add_plots(s: Section, *plots: Plot | None) -> Section:
     return replace(s, plots=tuple(p for p in plots if p is not None))
 
 
-def _figure(title: str, *plots: Plot | None, detail: bool = False) -> list[Section]:
+def _draw(title: str, *plots: Plot | None, detail: bool = False) -> list[Section]:
     """A section of figures alone; none if there is nothing to draw."""
     drawn = tuple(p for p in plots if p is not None)
     return [Section(title=title, plots=drawn, detail=detail)] if drawn else []
@@ -97,15 +97,15 @@ def write_comparison(c: Comparison, source: Source, frozen: Held | None = None) 
     """The report of ``compare``; ``frozen``: how a saved calibration holds, where it is that which is compared."""
     f, names = c.fitted, [o.name for o in c.fitted.observations]
     if frozen is None:
-        said = describe.describe_comparison(c.as_json(), names)
+        summary = describe.describe_comparison(c.as_json(), names)
     else:
-        said = describe.describe_held(frozen.as_json(), names)
+        summary = describe.describe_held(frozen.as_json(), names)
     lines = panels.pair_lines(c.residual, None)
     sections = [
-        _with_plots(said[0], panels.plot_blocks(f, lines, envelope=True)),
-        *_with_failures(said[1:], c),
-        *_figure("Spectrum", panels.plot_spectrum(f, lines), detail=True),
-        *_figure("Demodulated channels", panels.plot_channels(f, lines), detail=True),
+        _add_plots(summary[0], panels.plot_blocks(f, lines, envelope=True)),
+        *_add_failures(summary[1:], c),
+        *_draw("Spectrum", panels.plot_spectrum(f, lines), detail=True),
+        *_draw("Demodulated channels", panels.plot_channels(f, lines), detail=True),
         *_ask_whiteness(f, c.residual),
         *describe_parameters(f),
     ]
@@ -121,41 +121,41 @@ def _ask_whiteness(f: Fitted, residual: Sequence[Array]) -> list[Section]:
     white = panels.plot_whiteness(f, n, residual[n])
     against = panels.plot_against(f, n, residual[n], channel)
     return [
-        *_figure("Whiteness of the residual", white, detail=True),
-        *_figure(f"Residual against {numbers.product(channel)}", against, detail=True),
+        *_draw("Whiteness of the residual", white, detail=True),
+        *_draw(f"Residual against {numbers.product(channel)}", against, detail=True),
     ]
 
 
-def _with_failures(sections: Sequence[Section], c: Comparison) -> list[Section]:
+def _add_failures(sections: Sequence[Section], c: Comparison) -> list[Section]:
     """The sections, that on where the model fails with its figures."""
     f = c.fitted
     harmonics = panels.plot_harmonics(f, c.residual)
     if any(s.title == "Where it fails" for s in sections):
-        return [_with_plots(s, harmonics) if s.title == "Where it fails" else s for s in sections]
-    return [*sections, *_figure("Residual by harmonic of the spin", harmonics)]
+        return [_add_plots(s, harmonics) if s.title == "Where it fails" else s for s in sections]
+    return [*sections, *_draw("Residual by harmonic of the spin", harmonics)]
 
 
 def write_diagnosis(d: Diagnosis, source: Source) -> str:
     """The report of ``diagnose``: verdict, one figure, where the model fails, the findings; everything else is folded."""
-    f, said = d.outcome.target, describe.describe_diagnosis(d.as_json())
+    f, summary = d.outcome.target, describe.describe_diagnosis(d.as_json())
     lines = panels.pair_lines(d.residual, d.residual_after if d.found else None)
     main = panels.plot_spectrum(f, lines) or panels.plot_blocks(d.fitted, lines)
-    parts = {s.title: s for s in said[1:]}
+    parts = {s.title: s for s in summary[1:]}
     open_ = []
     if d.verdict in ("unexplained", "partly-explained"):
         harmonics = panels.plot_harmonics(f, d.residual_after)
         rest = parts.pop("Not explained", Section(title="Not explained"))
-        open_.append(_with_plots(rest, harmonics))
+        open_.append(_add_plots(rest, harmonics))
     open_ += [parts.pop(name) for name in ("Values", "Next motion") if name in parts]
-    known = [e for e in map(d.fitted.model.effect, d.found) if e is not None]
-    physics = [f"{e.id}, {e.title}: {e.physics} Source: {e.source or 'none'}" for e in known]
+    effects = [e for e in map(d.fitted.model.effect, d.found) if e is not None]
+    physics = [f"{e.id}, {e.title}: {e.physics} Source: {e.source or 'none'}" for e in effects]
     sections = [
-        _with_plots(said[0], main),
+        _add_plots(summary[0], main),
         *open_,
         *(replace(s, detail=True) for s in parts.values() if s.title),
         *([Section("Physics of the effects", tuple(physics), detail=True)] if physics else ()),
-        *_figure("Error in blocks of time", panels.plot_blocks(d.fitted, lines), detail=True),
-        *_figure("Demodulated channels", panels.plot_channels(f, lines), detail=True),
+        *_draw("Error in blocks of time", panels.plot_blocks(d.fitted, lines), detail=True),
+        *_draw("Demodulated channels", panels.plot_channels(f, lines), detail=True),
         *(describe_parameters(f) if d.found else ()),
     ]
     return render_page("What is missing", sections, source, d.fitted)
@@ -173,26 +173,25 @@ def write_addition(
     old, new = ([e.id for e in c.fitted.model.effects] for c in (before, after))
     values = []
     for e in new:
-        found = Estimates.of_calibration(f).select(e)
-        parameters, combinations = (
-            [p.as_json() for p in own] for own in (found.list_parameters(), found.list_combinations())
-        )
+        estimates = Estimates.of_calibration(f).select(e)
+        parameters = [p.as_json() for p in estimates.list_parameters()]
+        combinations = [p.as_json() for p in estimates.list_combinations()]
         values.append({"effect": e, "parameters": parameters, "combinations": combinations})
     added, removed = [e for e in new if e not in old], [e for e in old if e not in new]
     step = describe.describe_step(added, removed, before.as_json(), after.as_json(), values)
     lines = panels.pair_lines(before.residual, after.residual)
-    both = panels.plot_spectrum(f, lines), panels.plot_blocks(f, lines)
+    figures = panels.plot_spectrum(f, lines), panels.plot_blocks(f, lines)
     sections = [
-        _with_plots(step[0], panels.plot_history(history, after.noise_floor)),
+        _add_plots(step[0], panels.plot_history(history, after.noise_floor)),
         *step[1:],
         Section(title="History", table=describe.tabulate_history(history), detail=True),
-        *_figure("The residual before and after", *both),
-        *_figure("Demodulated channels", panels.plot_channels(f, lines), detail=True),
-        *(replace(s, detail=True) for s in _with_failures([], after)),
+        *_draw("The residual before and after", *figures),
+        *_draw("Demodulated channels", panels.plot_channels(f, lines), detail=True),
+        *(replace(s, detail=True) for s in _add_failures([], after)),
     ]
     if diagnosis is not None:
-        said = describe.describe_diagnosis(diagnosis.as_json())
-        sections += [replace(s, detail=True) for s in said if s.title == "Evidence"]
+        evidence = describe.describe_diagnosis(diagnosis.as_json())
+        sections += [replace(s, detail=True) for s in evidence if s.title == "Evidence"]
     return render_page("A step of the model", sections, source, f)
 
 
@@ -201,36 +200,36 @@ def write_history(steps: Sequence[Json], source: Source) -> str:
     first = Section(sentences=(f"{count(len(steps), 'step')}.",))
     table = Section(title="Steps", table=describe.tabulate_history(steps))
     drawn = panels.plot_history(steps, float("nan"))
-    return render_page("History", [_with_plots(first, drawn), table], source)
+    return render_page("History", [_add_plots(first, drawn), table], source)
 
 
 # --- what comes after, and flights ---------------------------------------------------------------------
 
 
-def write_calibration(said: Sequence[Section], f: Fitted, source: Source) -> str:
-    """The report of ``calibrate``: ``said`` and the parameters of the fit ``f``."""
+def write_calibration(summary: Sequence[Section], f: Fitted, source: Source) -> str:
+    """The report of ``calibrate``: ``summary`` and the parameters of the fit ``f``."""
     lines = panels.pair_lines(f.residuals(), None)
     drawn = panels.plot_blocks(f, lines, envelope=True), panels.plot_spectrum(f, lines)
-    sections = [*said, *_figure("The residual", *drawn), *describe_parameters(f, values=False)]
+    sections = [*summary, *_draw("The residual", *drawn), *describe_parameters(f, values=False)]
     return render_page("Calibration", sections, source, f)
 
 
-def write_compensation(said: Sequence[Section], made: Sequence[Mapping[str, Array]], source: Source) -> str:
-    """The report of ``compensate``: ``said`` and the compensated channels of every flight."""
-    plot = panels.plot_compensated(made)
-    return render_page("Compensation", [*said, *_figure("Channels", plot)], source)
+def write_compensation(summary: Sequence[Section], x: Sequence[Mapping[str, Array]], source: Source) -> str:
+    """The report of ``compensate``: ``summary`` and the compensated channels ``x`` of every flight."""
+    plot = panels.plot_compensated(x)
+    return render_page("Compensation", [*summary, *_draw("Channels", plot)], source)
 
 
 def write_info(
-    said: Sequence[Section], flights: Sequence[Flight], source: Source, kind: str = "A flight"
+    summary: Sequence[Section], flights: Sequence[Flight], source: Source, kind: str = "A flight"
 ) -> str:
-    """The report of ``info``, or of another ``kind``: ``said``, and every column of the flights over time."""
-    sections = list(said)
+    """The report of ``info``, or of another ``kind``: ``summary``, and every column of the flights over time."""
+    sections = list(summary)
     for n, x in enumerate(flights[: panels.FLIGHTS]):
         axes = tuple(_draw_columns(x, max(1, len(x.time) // panels.MOST_POINTS)))
         caption = "Every column over time, in SI."
         plot = Curves(f"columns{n}", caption, axes, "time, s", height=1.6)
-        sections += _figure(f"Columns of {x.name}", plot)
+        sections += _draw(f"Columns of {x.name}", plot)
     return render_page(kind, sections, source)
 
 
@@ -245,11 +244,11 @@ def _draw_columns(x: Flight, step: int) -> Iterator[Axes]:
 
 def write_survey(s: Survey, source: Source, model_dir: Path | str = "MODEL_DIR") -> str:
     """The report of ``survey``; ``model_dir`` is named in the commands that come next."""
-    said = s.sections(model_dir)
+    summary = s.sections(model_dir)
     trends = [_plot_trend(t, n) for n, t in enumerate(find_trends(s.done)[:6])]
-    first = _with_plots(said[0], _plot_errors(s) if s.done else None)
+    first = _add_plots(summary[0], _plot_errors(s) if s.done else None)
     return render_page(
-        "Survey of flights", [first, *said[1:], *_figure("The least constant parameters", *trends)], source
+        "Survey of flights", [first, *summary[1:], *_draw("The least constant parameters", *trends)], source
     )
 
 
@@ -260,9 +259,9 @@ def _plot_errors(s: Survey) -> Plot:
         before, after = (r["error"][k]["rms_Eo"] for k in ("calibrated", "after"))
         explained = r["verdict"] != "unexplained"
         bars.append(Bar(str(r["flight"]), after, r["noise_floor"]["rms_Eo"], explained, (before,)))
-    every = [v for b in bars for v in (b.value, b.dots[0])]
+    values = [v for b in bars for v in (b.value, b.dots[0])]
     caption = "Error before demodulation of every flight, calibrated alone. Bars: with the effects found in it; grey: unexplained."
-    log = max(every) > 6.0 * min(every)
+    log = max(values) > 6.0 * min(values)
     return Bars("errors", caption, tuple(bars), "error, Eo rms", log=log, dots=("current model",))
 
 

@@ -116,12 +116,12 @@ def estimate_spectrum(
         return None
     longest = max(r.stop - r.start for r in parts)
     size = min(int(SEGMENT * rate), max(32, longest // 3))
-    used = [r for r in parts if r.stop - r.start >= size]
+    segments = [r for r in parts if r.stop - r.start >= size]
     total = np.zeros(size // 2 + 1)
-    for r in used:
+    for r in segments:
         f, p = signal.welch(x[r], rate, nperseg=size, detrend="constant")
         total += p * (r.stop - r.start)
-    psd = total / sum(r.stop - r.start for r in used)
+    psd = total / sum(r.stop - r.start for r in segments)
     # The lowest bin is what is left of the mean.
     return _bin_frequencies(f[2:], psd[2:], points)
 
@@ -163,13 +163,13 @@ def measure_blocks(w: PreparedFlight, residual: Array, k_ggi: float) -> tuple[Ar
     return edges, rms
 
 
-def find_worst(f: Fitted, residuals: Sequence[Array], most: int) -> list[int]:
-    """Positions of the ``most`` flights with the largest error over their noise, in the flights' own order."""
+def find_worst(f: Fitted, residuals: Sequence[Array], count: int) -> list[int]:
+    """Positions of the ``count`` flights with the largest error over their noise, in the flights' own order."""
     ratio = []
     for w, e in zip(f.prepared, residuals, strict=True):
         v = w.observation.record.valid
         ratio.append(float(np.sqrt(np.mean(e[v] ** 2))) / compute_noise_rms(w, 1.0))
-    return sorted(sorted(range(len(ratio)), key=lambda n: -ratio[n])[:most])
+    return sorted(sorted(range(len(ratio)), key=lambda n: -ratio[n])[:count])
 
 
 def pair_lines(before: Residuals, after: Residuals | None) -> Lines:
@@ -218,8 +218,8 @@ def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
     axes = []
     for n, w, k, name in _list_worst(f, lines[0][1]):
         r = w.observation.record
-        found = [(label, estimate_spectrum(x[n] / k, r.valid, r.rate)) for label, x in lines]
-        curves = [Curve(label, s.frequency, s.density, _role(label)) for label, s in found if s is not None]
+        spectra = [(label, estimate_spectrum(x[n] / k, r.valid, r.rate)) for label, x in lines]
+        curves = [Curve(label, s.frequency, s.density, _role(label)) for label, s in spectra if s is not None]
         if not curves:
             continue
         grid, spin = curves[0].x, abs(r.spin_frequency)
@@ -244,14 +244,14 @@ def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
     axes = []
     for n, w, k, name in _list_worst(f, lines[-1][1]):
         r = w.observation.record
-        made = [(label, demodulate_residual(x[n], r, f.scales[n])) for label, x in lines]
-        if not np.isfinite(made[0][1]).any():
+        channels = [(label, demodulate_residual(x[n], r, f.scales[n])) for label, x in lines]
+        if not np.isfinite(channels[0][1]).any():
             continue
         # four samples a cycle of the low-pass's edge draw the whole of it
         step = max(1, int(r.rate / (4.0 * DRAWN)))
         for channel, part, amplitude in (("inline", np.real, 4.0), ("cross", np.imag, 2.0)):
             level = predict_demodulated_noise(w, k, 2, amplitude)
-            curves = tuple(_channel(label, r.time[::step], part(x[::step])) for label, x in made)
+            curves = tuple(_draw_channel(label, r.time[::step], part(x[::step])) for label, x in channels)
             ends = (float(r.time[0]), float(r.time[-1]))
             title = f"{channel} of {name}" if name else channel
             axes.append(Axes(curves, "error, Eo", title, ends, level))
@@ -259,7 +259,7 @@ def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
     return Curves("channels", caption, tuple(axes), SECONDS, height=1.6) if axes else None
 
 
-def _channel(label: str, time: Array, x: Array) -> Curve:
+def _draw_channel(label: str, time: Array, x: Array) -> Curve:
     """A line; its envelope where it has more points than can be drawn."""
     if len(x) <= MOST_POINTS:
         return Curve(label, time, x, _role(label), width=0.8)
@@ -288,52 +288,53 @@ def plot_harmonics(f: Fitted, residuals: Sequence[Array]) -> Bars | None:
     return Bars("where-harmonic", caption, bars, "slow error, Eo")
 
 
-def list_error_steps(steps: Sequence[Mapping[str, Any]], now: float | None = None) -> list[Bar]:
-    """The error after every step of a history, held out as dots, and ``now``: pale where the flights, not the model, are others."""
+def list_error_steps(steps: Sequence[Mapping[str, Any]], current: float | None = None) -> list[Bar]:
+    """The error after every step of a history, held out as dots, and ``current``: pale where the flights, not the model, are others."""
     bars: list[Bar] = []
-    made = ""
+    change = ""
 
-    def begin(value: float | None, held: float | None) -> None:
+    def begin(value: float | None, holdout: float | None) -> None:
         if value is not None and not (bars and abs(value - bars[-1].value) <= 0.02 * value):
-            label = made or ("other flights" if bars else "before")
-            bars.append(Bar(label, value, strong=bool(made), dots=(np.nan if held is None else held,)))
+            label = change or ("other flights" if bars else "before")
+            dots = (np.nan if holdout is None else holdout,)
+            bars.append(Bar(label, value, strong=bool(change), dots=dots))
 
     for s in steps:
         begin(describe.find_rms(s.get("before")), describe.find_rms(s.get("before"), "holdout"))
-        after, held = (describe.find_rms(s.get("after"), k) for k in ("calibrated", "holdout"))
+        after, holdout = (describe.find_rms(s.get("after"), k) for k in ("calibrated", "holdout"))
         if after is not None:
             label = f"+ {s['effect']}" if s["action"] == "add" else str(s.get("effect") or s["action"])
-            bars.append(Bar(label, after, dots=(np.nan if held is None else held,)))
+            bars.append(Bar(label, after, dots=(np.nan if holdout is None else holdout,)))
         removed = {"remove": f"{numbers.MINUS} {s.get('effect')}", "edit": "sheet edited"}
-        made = removed.get(str(s["action"]), "")
-    begin(now, None)
+        change = removed.get(str(s["action"]), "")
+    begin(current, None)
     return bars
 
 
 def plot_history(steps: Sequence[Mapping[str, Any]], noise: float) -> Bars | None:
     """The error after every step of a history against the noise floor, held out as dots."""
-    bars, known = list_error_steps(steps)[-STEPS:], np.isfinite(noise)
+    bars, has_floor = list_error_steps(steps)[-STEPS:], np.isfinite(noise)
     if not bars:
         return None
     top = max(b.value for b in bars)
     caption = "Calibrated error before demodulation after every step." + (
-        " Dashed: the noise floor." if known else ""
+        " Dashed: the noise floor." if has_floor else ""
     )
     return Bars(
         "loop",
         caption,
         tuple(bars),
         "calibrated error, Eo rms",
-        log=bool(known and top > 8.0 * noise > 0.0),
-        threshold=(noise, f"noise floor {numbers.number(noise)} Eo") if known else None,
+        log=bool(has_floor and top > 8.0 * noise > 0.0),
+        threshold=(noise, f"noise floor {numbers.number(noise)} Eo") if has_floor else None,
         dots=("held out",),
     )
 
 
-def plot_compensated(made: Sequence[Mapping[str, Array]]) -> Curves | None:
+def plot_compensated(series: Sequence[Mapping[str, Array]]) -> Curves | None:
     """The compensated channels (N,) of flights with their uncertainty; ``None`` where there are none."""
     axes = []
-    for columns in made[:FLIGHTS]:
+    for columns in series[:FLIGHTS]:
         time = np.asarray(columns["time"], dtype=np.float64)
         step = max(1, len(time) // MOST_POINTS)
         for name in (n for n in columns if f"{n}_std" in columns):
@@ -348,16 +349,16 @@ def describe_record(f: Fitted) -> list[tuple[str, str]]:
     """(name, value) of what was recorded and what was fitted."""
     records = [(o if o.thin is None else o.thin.whole).record for o in f.observations]
     samples, valid = (sum(len(r.time) for r in records), sum(int(np.sum(r.valid)) for r in records))
-    used = f"{numbers.fixed(samples, 0)} at {numbers.number(records[0].rate, 4)} Hz"
+    text = f"{numbers.fixed(samples, 0)} at {numbers.number(records[0].rate, 4)} Hz"
     if valid < samples:
-        used += f", {numbers.fixed(samples - valid, 0)} of them not usable"
+        text += f", {numbers.fixed(samples - valid, 0)} of them not usable"
     thin = {o.record.rate for o in f.observations if o.thin is not None}
     if thin:
-        used += f"; thinned to {numbers.number(min(thin), 4)} Hz without loss of information"
+        text += f"; thinned to {numbers.number(min(thin), 4)} Hz without loss of information"
     return [
         ("flights", numbers.join_names([numbers.clean(o.name) for o in f.observations])),
         ("duration", numbers.seconds(sum(float(r.time[-1]) + 1.0 / r.rate for r in records))),
-        ("samples", used),
+        ("samples", text),
         ("output", f.observations[0].recorded.words),
         ("effects in the model", numbers.join_names([e.id for e in f.model.effects]) or "none"),
         ("k_ggi", f"{numbers.number(f.k_ggi, 4)} V/Eo"),
@@ -390,25 +391,25 @@ def whiten_residual(w: PreparedFlight, residual: Array) -> Array:
     return np.where(r.valid, white, np.nan)
 
 
-def correlate(x: Array, y: Array, most: int) -> tuple[Array, Array]:
-    """Correlation of x (N,) with y (N,) earlier by 0 ... ``most`` samples, NaN passed over; and how many pairs each lag has."""
+def correlate(x: Array, y: Array, lags: int) -> tuple[Array, Array]:
+    """Correlation of x (N,) with y (N,) earlier by 0 ... ``lags`` samples, NaN passed over; and how many pairs each lag has."""
 
     def lagged(a: Array, b: Array) -> Array:
-        return signal.correlate(a, b, method="fft")[len(b) - 1 :][: most + 1]
+        return signal.correlate(a, b, method="fft")[len(b) - 1 :][: lags + 1]
 
-    known = np.isfinite(x), np.isfinite(y)
-    u, v = (np.where(k, z - np.mean(z[k]), 0.0) for k, z in zip(known, (x, y), strict=True))
-    pairs = np.maximum(np.round(lagged(*(k.astype(float) for k in known))), 1.0)
-    scale = np.sqrt(np.sum(u**2) / np.sum(known[0]) * np.sum(v**2) / np.sum(known[1]))
+    valid = np.isfinite(x), np.isfinite(y)
+    u, v = (np.where(k, z - np.mean(z[k]), 0.0) for k, z in zip(valid, (x, y), strict=True))
+    pairs = np.maximum(np.round(lagged(*(k.astype(float) for k in valid))), 1.0)
+    scale = np.sqrt(np.sum(u**2) / np.sum(valid[0]) * np.sum(v**2) / np.sum(valid[1]))
     return lagged(u, v) / pairs / max(float(scale), 1e-300), pairs
 
 
-def _bounds(x: Array, middle: float, half: Array) -> Curve:
-    few = np.unique(np.linspace(0, len(x) - 1, 40).astype(np.intp))  # they vary slowly
-    return Curve("99 % of noise", x[few], middle - half[few], "envelope", "band", middle + half[few])
+def _bound(x: Array, middle: float, half: Array) -> Curve:
+    index = np.unique(np.linspace(0, len(x) - 1, 40).astype(np.intp))  # they vary slowly
+    return Curve("99 % of noise", x[index], middle - half[index], "envelope", "band", middle + half[index])
 
 
-def _lags(w: PreparedFlight) -> int:
+def _count_lags(w: PreparedFlight) -> int:
     r = w.observation.record
     spin = abs(r.spin_frequency)
     seconds = TURNS / spin if spin > 0.0 else LONGEST
@@ -418,22 +419,22 @@ def _lags(w: PreparedFlight) -> int:
 def plot_whiteness(f: Fitted, n: int, residual: Array, channels: Sequence[str] = MOTION) -> Curves:
     """Autocorrelation of the whitened residual (N,), V, of flight n, and its cross-correlation with channels, over lags."""
     w = f.prepared[n]
-    r, e, most = w.observation.record, whiten_residual(w, residual), _lags(f.prepared[n])
-    own, pairs = correlate(e, e, most)
-    lag = np.arange(most + 1) / r.rate
+    r, e, longest = w.observation.record, whiten_residual(w, residual), _count_lags(f.prepared[n])
+    correlation, pairs = correlate(e, e, longest)
+    lag = np.arange(longest + 1) / r.rate
     half = NORMAL_99 / np.sqrt(pairs)
     axes = [
         Axes(
-            (_bounds(lag[1:], 0.0, half[1:]), Curve("residual", lag[1:], own[1:], width=0.9)),
+            (_bound(lag[1:], 0.0, half[1:]), Curve("residual", lag[1:], correlation[1:], width=0.9)),
             "autocorrelation",
         )
     ]
     for name in channels:
         x = np.where(r.valid, r.channels[name], np.nan)
-        after, before = correlate(e, x, most)[0], correlate(x, e, most)[0]
-        both, time = np.concatenate([before[:0:-1], after]), np.concatenate([-lag[:0:-1], lag])
+        after, before = correlate(e, x, longest)[0], correlate(x, e, longest)[0]
+        cross, time = np.concatenate([before[:0:-1], after]), np.concatenate([-lag[:0:-1], lag])
         inside = np.concatenate([half[:0:-1], half])
-        curves = (_bounds(time, 0.0, inside), Curve("correlation", time, both, width=0.9))
+        curves = (_bound(time, 0.0, inside), Curve("correlation", time, cross, width=0.9))
         axes.append(Axes(curves, "correlation", f"with {numbers.product(name)}", share=0.8))
     caption = (
         "Correlation of the whitened residual with itself and with the motion, over the lag (positive: the motion was earlier)."
@@ -455,8 +456,8 @@ def plot_against(f: Fitted, n: int, residual: Array, channel: str) -> Curves:
     half = NORMAL_99 / np.sqrt([len(p) for p in parts])
     name, unit = numbers.product(channel), numbers.unit(SI_UNITS.get(channel, ""))
     axes = (
-        Axes((_bounds(at, 0.0, half), Curve("mean", at, mean)), "mean, σ"),
-        Axes((_bounds(at, 1.0, half / np.sqrt(2.0)), Curve("rms", at, rms)), "rms, σ"),
+        Axes((_bound(at, 0.0, half), Curve("mean", at, mean)), "mean, σ"),
+        Axes((_bound(at, 1.0, half / np.sqrt(2.0)), Curve("rms", at, rms)), "rms, σ"),
     )
     caption = (
         f"The whitened residual against {name}: mean and rms of {BINS} bins of equal counts, in standard deviations of the noise."
@@ -468,8 +469,8 @@ def plot_against(f: Fitted, n: int, residual: Array, channel: str) -> Curves:
 
 def _divide(e: Array, x: Array) -> list[NDArray[np.intp]]:
     """The samples at which both are known, in bins of x, each of as many."""
-    kept = np.flatnonzero(np.isfinite(e) & np.isfinite(x))
-    ordered = kept[np.argsort(x[kept], kind="stable")]
+    index = np.flatnonzero(np.isfinite(e) & np.isfinite(x))
+    ordered = index[np.argsort(x[index], kind="stable")]
     return [p for p in np.array_split(ordered, BINS) if len(p) > 2]
 
 
@@ -526,10 +527,10 @@ def list_unseen(f: Fitted) -> list[str]:
 
 def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...]:
     """What the record determines of the parameters, their ``values``, and their correlations, as folded sections."""
-    seen, total = count_directions(f)
-    known = f"{seen} of {total} directions"
+    observable, total = count_directions(f)
+    determined = f"{observable} of {total} directions"
     text = [
-        f"{known} of the calibrated parameters are determined by this record; the others stay at their test-sheet values."
+        f"{determined} of the calibrated parameters are determined by this record; the others stay at their test-sheet values."
     ]
     if unseen := list_unseen(f):
         text.append(f"Not observable: {', '.join(unseen)}.")
@@ -537,7 +538,7 @@ def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...
     strongest = Table(("parameter", "and", "correlation"), tuple(pairs), words=2)
     lists = (list_combinations(f), list_parameters(f)) if values else None
     return (
-        Section("What the record determines", tuple(text), detail=True, summary=known),
+        Section("What the record determines", tuple(text), detail=True, summary=determined),
         *(() if lists is None else describe_other.tabulate_parameters(*lists, detail=True)),
         Section("Correlations of the parameters", table=strongest, plots=(matrix,), detail=True),
     )
@@ -551,13 +552,13 @@ def correlate_parameters(f: Fitted) -> tuple[Matrix, list[tuple[str, str, str]]]
     names, U = find_directions(f)
     covariance = U @ f.coefficients(())[1] @ U.T
     std = np.sqrt(np.diag(covariance))
-    kept = np.flatnonzero(std < UNSEEN)
-    r = (covariance / np.outer(std, std))[np.ix_(kept, kept)]
-    labels = tuple(names[n] for n in kept)
+    determined = np.flatnonzero(std < UNSEEN)
+    r = (covariance / np.outer(std, std))[np.ix_(determined, determined)]
+    labels = tuple(names[n] for n in determined)
     i, j = np.triu_indices(len(r), 1)
     strongest = np.argsort(-np.abs(r[i, j]), kind="stable")[:LISTED]
     pairs = [(labels[i[k]], labels[j[k]], numbers.fixed(float(r[i[k], j[k]]), 3)) for k in strongest]
     caption = "Correlations of the calibrated parameters that this record determines, wholly or in part."
     largest = np.max(np.abs(r - np.eye(len(r))), axis=0, initial=0.0)
-    shown = np.sort(np.argsort(-largest, kind="stable")[:MOST_LABELS])
-    return Matrix("correlations", caption, tuple(labels[n] for n in shown), r[np.ix_(shown, shown)]), pairs
+    index = np.sort(np.argsort(-largest, kind="stable")[:MOST_LABELS])
+    return Matrix("correlations", caption, tuple(labels[n] for n in index), r[np.ix_(index, index)]), pairs

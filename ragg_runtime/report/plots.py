@@ -63,9 +63,9 @@ def draw_file(plot: Plot) -> str:
     text = draw_plot(plot)
     for name, colour in COLOURS.items():
         text = text.replace(f"var(--{name})", colour)
-    own = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+    namespaces = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
     return text.replace(
-        "<svg ", f'<svg {own} font-family="sans-serif" style="background: {COLOURS["paper"]}" ', 1
+        "<svg ", f'<svg {namespaces} font-family="sans-serif" style="background: {COLOURS["paper"]}" ', 1
     )
 
 
@@ -83,9 +83,9 @@ def _style() -> Iterator[None]:
 
 def _make_figure(height: float, width: float = WIDTH) -> Figure:
     """A figure so many inches high and wide, in constrained layout."""
-    made = Figure(figsize=(width, height), layout="constrained")
-    FigureCanvasSVG(made)
-    return made
+    figure = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasSVG(figure)
+    return figure
 
 
 # --- curves --------------------------------------------------------------------------------------------
@@ -95,10 +95,10 @@ def _draw_curves(plot: Curves) -> str:
     """Axes below each other, each with its curves, the noise dashed."""
     shares = [a.share for a in plot.axes]
     fig = _make_figure(plot.height * sum(shares) + 0.3)
-    found = fig.subplots(len(plot.axes), 1, squeeze=False, height_ratios=shares)[:, 0]
+    subplots = fig.subplots(len(plot.axes), 1, squeeze=False, height_ratios=shares)[:, 0]
     noise: dict[str, Any] = {"color": COLOURS["noise"], "linestyle": "--", "linewidth": 1.0, "zorder": 3}
     named_before: list[str] = []
-    for ax, axes in zip(found, plot.axes, strict=True):
+    for ax, axes in zip(subplots, plot.axes, strict=True):
         for curve in axes.curves:
             _draw_curve(ax, curve)
         if np.isfinite(axes.level):
@@ -109,10 +109,10 @@ def _draw_curves(plot: Curves) -> str:
         named = 0.0
         for x, text in axes.marks:
             ax.axvline(x, color=COLOURS["quiet"], linewidth=0.9, linestyle=(0, (1.5, 3.5)), zorder=0.5)
-            at = blended_transform_factory(ax.transData, ax.transAxes)
+            transform = blended_transform_factory(ax.transData, ax.transAxes)
             away: dict[str, Any] = {"xytext": (3, -2), "textcoords": "offset points", "va": "top"}
             if x >= MARKS_APART * named:
-                ax.annotate(text, (x, 1.0), xycoords=at, fontsize=9, color=COLOURS["quiet"], **away)
+                ax.annotate(text, (x, 1.0), xycoords=transform, fontsize=9, color=COLOURS["quiet"], **away)
                 named = x
         ax.set_ylabel(axes.y_label)
         labels = ax.get_legend_handles_labels()[1]
@@ -122,7 +122,7 @@ def _draw_curves(plot: Curves) -> str:
             numbers.short(axes.title, 60), pad=6.0 if labels == named_before else 20.0
         )  # above the legend
         named_before = labels
-    found[-1].set_xlabel(plot.x_label)
+    subplots[-1].set_xlabel(plot.x_label)
     return _write_svg(fig, plot.key, plot.caption)
 
 
@@ -140,15 +140,15 @@ def _draw_curve(ax: Drawn, c: Curve) -> None:
 
 def _set_limits(ax: Drawn, axes: Axes) -> None:
     """Limits that show every curve and the noise; of a logarithmic pair of axes a decade at least."""
-    every = np.concatenate([x for c in axes.curves for x in (c.y, c.high) if x is not None])
-    every = every[np.isfinite(every)]
+    values = np.concatenate([x for c in axes.curves for x in (c.y, c.high) if x is not None])
+    values = values[np.isfinite(values)]
     if axes.log:
-        low, high = _find_log_limits(axes, every[every > 0.0])
+        low, high = _find_log_limits(axes, values[values > 0.0])
         ax.set_xscale("log")
         ax.set_yscale("log")
         ax.set_ylim(low, high)
     else:
-        top = max([float(np.max(np.abs(every), initial=0.0)), float(np.nan_to_num(axes.level)), 1e-12])
+        top = max([float(np.max(np.abs(values), initial=0.0)), float(np.nan_to_num(axes.level)), 1e-12])
         if axes.signed and np.isfinite(axes.level):
             ax.set_ylim(-1.2 * top, 1.2 * top)
         elif not axes.signed:
@@ -160,8 +160,8 @@ def _set_limits(ax: Drawn, axes: Axes) -> None:
         _set_log_ticks(ax, "y")
 
 
-def _find_log_limits(axes: Axes, every: Array) -> tuple[float, float]:
-    low, high = float(np.min(every)) / 1.4, float(np.max(every)) * 1.8
+def _find_log_limits(axes: Axes, values: Array) -> tuple[float, float]:
+    low, high = float(np.min(values)) / 1.4, float(np.max(values)) * 1.8
     for c in axes.curves:
         if c.role == "noise":
             # where an unknown gradient is projected out, the residual has a notch without meaning
@@ -173,8 +173,8 @@ def _find_log_limits(axes: Axes, every: Array) -> tuple[float, float]:
 def _set_log_ticks(ax: Drawn, which: str) -> None:
     """Plain numbers on a logarithmic axis; 2 and 5 labelled as well where it spans little."""
     axis, (low, high) = (ax.xaxis, ax.get_xlim()) if which == "x" else (ax.yaxis, ax.get_ylim())
-    few = high / low < (3000.0 if which == "x" else 300.0)
-    axis.set_major_locator(LogLocator(10.0, (1.0, 2.0, 5.0) if few else (1.0,), numticks=12))
+    narrow = high / low < (3000.0 if which == "x" else 300.0)
+    axis.set_major_locator(LogLocator(10.0, (1.0, 2.0, 5.0) if narrow else (1.0,), numticks=12))
     between = LogLocator(10.0, tuple(range(2, 10)), numticks=40) if high / low < 1e6 else FixedLocator([])
     axis.set_minor_locator(between)
     axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}" if 1e-4 < v < 1e5 else numbers.number(v, 1)))
@@ -195,27 +195,27 @@ def _draw_bars(plot: Bars) -> str:
     fig = _make_figure(0.75 + 0.245 * count)
     ax = fig.subplots()
     place = np.arange(count, dtype=np.float64)
-    low, shown = _scale_bars(plot)
+    low, ends = _scale_bars(plot)
     colours = [COLOURS["residual" if b.strong else "before"] for b in plot.bars]
-    ax.barh(place, shown - low, 0.6, left=low, color=colours)
+    ax.barh(place, ends - low, 0.6, left=low, color=colours)
     for k, b in enumerate(plot.bars):
         text = numbers.number(b.value) if np.isfinite(b.value) else "certain"
-        end = max([shown[k], *(d for d in b.dots if np.isfinite(d))])  # nothing may lie below the value
+        end = max([ends[k], *(d for d in b.dots if np.isfinite(d))])  # nothing may lie below the value
         beside: dict[str, Any] = {"xytext": (4, 0), "textcoords": "offset points", "va": "center"}
         ax.annotate(text, (end, place[k]), fontsize=9, bbox=HALO, **beside)
-    known = np.array([n for n, b in enumerate(plot.bars) if np.isfinite(b.noise)], dtype=np.intp)
+    noisy = np.array([n for n, b in enumerate(plot.bars) if np.isfinite(b.noise)], dtype=np.intp)
     dashed: dict[str, Any] = {"color": COLOURS["noise"], "linestyle": "--"}
-    if len(known):
-        level = [plot.bars[n].noise for n in known]
-        ax.vlines(level, place[known] - 0.4, place[known] + 0.4, label="noise alone", **dashed)
+    if len(noisy):
+        level = [plot.bars[n].noise for n in noisy]
+        ax.vlines(level, place[noisy] - 0.4, place[noisy] + 0.4, label="noise alone", **dashed)
     if plot.threshold is not None:
         ax.axvline(plot.threshold[0], linewidth=1.0, label=plot.threshold[1], **dashed)
     for j, (name, marker) in enumerate(zip(plot.dots, "oD", strict=False)):
         dots = np.array([b.dots[j] if j < len(b.dots) else np.nan for b in plot.bars])
-        kept = np.isfinite(dots) & (dots > low)
+        visible = np.isfinite(dots) & (dots > low)
         look: dict[str, Any] = {"color": COLOURS["ink"], "markerfacecolor": COLOURS["paper"]}
-        ax.plot(dots[kept], place[kept], marker, markersize=4.5, label=name, **look)
-    _label_bars(ax, plot, low, float(np.max(shown, initial=1e-12)))
+        ax.plot(dots[visible], place[visible], marker, markersize=4.5, label=name, **look)
+    _label_bars(ax, plot, low, float(np.max(ends, initial=1e-12)))
     return _write_svg(fig, plot.key, plot.caption)
 
 
@@ -223,11 +223,11 @@ def _scale_bars(plot: Bars) -> tuple[float, Array]:
     """Where bars begin, and where they end: what is infinite is drawn beyond the others."""
     values, level = np.array([b.value for b in plot.bars]), plot.threshold[0] if plot.threshold else 0.0
     top = max([float(np.max(values[np.isfinite(values)], initial=0.0)), level, 1e-12])
-    shown = np.where(np.isfinite(values), values, 2.0 * top)
+    ends = np.where(np.isfinite(values), values, 2.0 * top)
     if not plot.log:
-        return 0.0, np.nan_to_num(shown)
-    low = max(min([*(float(v) for v in shown if v > 0.0), level or np.inf]) / 2.0, top / 1e6)
-    return low, np.maximum(shown, low)
+        return 0.0, np.nan_to_num(ends)
+    low = max(min([*(float(v) for v in ends if v > 0.0), level or np.inf]) / 2.0, top / 1e6)
+    return low, np.maximum(ends, low)
 
 
 def _label_bars(ax: Drawn, plot: Bars, low: float, top: float) -> None:
@@ -256,8 +256,8 @@ def _draw_matrix(plot: Matrix) -> str:
     fig = _make_figure(side, side)
     ax = fig.subplots()
     for sign, colour, words in ((1.0, "residual", "positive"), (-1.0, "noise", "negative")):
-        found = [(i, j, float(plot.values[i, j]) * sign) for i in range(count) for j in range(i)]
-        sides = [(i, j, 0.94 * np.sqrt(r)) for i, j, r in found if r > 0.1]
+        entries = [(i, j, float(plot.values[i, j]) * sign) for i in range(count) for j in range(i)]
+        sides = [(i, j, 0.94 * np.sqrt(r)) for i, j, r in entries if r > 0.1]
         squares = [Rectangle((j - s / 2, i - s / 2), s, s) for i, j, s in sides]
         ax.add_collection(PatchCollection(squares, facecolor=COLOURS[colour], edgecolor="none"))
         ax.plot([], [], "s", color=COLOURS[colour], label=words)
@@ -274,12 +274,12 @@ def _draw_matrix(plot: Matrix) -> str:
 # --- the SVG -------------------------------------------------------------------------------------------
 
 
-def _write_svg(made: Figure, key: str, label: str) -> str:
+def _write_svg(figure: Figure, key: str, label: str) -> str:
     """The figure as an inline ``<svg>`` element; ids begin with ``key``, ``label`` is its alternative text."""
     buffer = io.StringIO()
     with matplotlib.rc_context({"svg.hashsalt": key}):
         nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
-        made.savefig(buffer, format="svg", metadata=nothing)
+        figure.savefig(buffer, format="svg", metadata=nothing)
     text = buffer.getvalue()
     text = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->", "", text[text.index("<svg") :], flags=re.DOTALL)
     head, body = text.split(">", 1)

@@ -63,15 +63,15 @@ class Places:
         folder = self.inside(text) if text else self.roots[0]
         if not folder.is_dir():
             raise UserError("there is no such folder", where=folder)
-        with os.scandir(folder) as found:
-            kinds = [(e, _kind_of(e)) for e in sorted(found, key=lambda e: e.name)]
-        shown = [(e, kind) for e, kind in kinds if kind is not None][:LISTED]
+        with os.scandir(folder) as entries:
+            kinds = [(e, _kind_of(e)) for e in sorted(entries, key=lambda e: e.name)]
+        openable = [(e, kind) for e, kind in kinds if kind is not None][:LISTED]
         return {
             "folder": str(folder),
             "above": str(folder.parent) if any(r in folder.parents for r in self.roots) else None,
             "roots": list(map(str, self.roots)),
             "entries": [
-                {"name": e.name, "path": e.path, "kind": kind, "bytes": _size_of(e)} for e, kind in shown
+                {"name": e.name, "path": e.path, "kind": kind, "bytes": _size_of(e)} for e, kind in openable
             ],
         }
 
@@ -158,7 +158,7 @@ def check_flight(path: Path) -> None:
     A damaged file can bring down the library that reads it: then that process ends, and not the studio. A file with columns of
     other names is kept: what they are is asked on the page.
     """
-    limit, found = 120.0 + path.stat().st_size / 2e6, "it ends with a fault"
+    limit, fault = 120.0 + path.stat().st_size / 2e6, "it ends with a fault"
     command = [sys.executable, "-m", "ragg_runtime", "info", str(path)]
     try:
         done = subprocess.run(
@@ -167,8 +167,8 @@ def check_flight(path: Path) -> None:
         if done.returncode in (0, 1):
             return  # a fault of the program is reported where the flight is opened
         if done.returncode == 2:
-            found = done.stderr.strip().removeprefix("ragg: ")
+            fault = done.stderr.strip().removeprefix("ragg: ")
     except subprocess.TimeoutExpired:
-        found = f"no end after {limit:.0f} s"
+        fault = f"no end after {limit:.0f} s"
     path.unlink(missing_ok=True)
-    raise UserError("the file cannot be read", where=path.name, found=found, remedy="see: ragg info FLIGHT")
+    raise UserError("the file cannot be read", where=path.name, found=fault, remedy="see: ragg info FLIGHT")

@@ -35,15 +35,15 @@ UNWRITTEN = Path("mapping.toml")
 
 def draft(m: Loaded, path: Path) -> Json:
     """The model's own mapping if the file has its columns, else a first one by looking; and what the file holds."""
-    columns, own = sample_table(path).columns, mapping_of(m, None)
-    if _describes(own, columns):
-        return _show(tomllib.loads(read_text(own.path)), columns, {}, kept=True)
-    made = draft_mapping(path)
-    return _show(tomllib.loads(made.text), columns, made.sure, kept=own is not None)
+    columns, kept_mapping = sample_table(path).columns, mapping_of(m, None)
+    if _describes(kept_mapping, columns):
+        return _show(tomllib.loads(read_text(kept_mapping.path)), columns, {}, kept=True)
+    first = draft_mapping(path)
+    return _show(tomllib.loads(first.text), columns, first.sure, kept=kept_mapping is not None)
 
 
-def _describes(how: Mapped | None, columns: Sequence[DataColumn]) -> TypeGuard[Mapped]:
-    return how is not None and how.columns <= {c.name for c in columns}
+def _describes(mapping: Mapped | None, columns: Sequence[DataColumn]) -> TypeGuard[Mapped]:
+    return mapping is not None and mapping.columns <= {c.name for c in columns}
 
 
 def is_foreign(m: Loaded, path: Path) -> bool:
@@ -54,14 +54,14 @@ def is_foreign(m: Loaded, path: Path) -> bool:
     try:
         if _describes(mapping_of(m, None), sample_table(path).columns):
             return False
-        made = draft_mapping(path)
+        mapping = draft_mapping(path)
     except (UserError, OSError):
         return False
-    found = [made.sure.get(n) for n in NEEDED]
-    return bool(made.questions) or not any(found) or any(sure in ("likely", "guess") for sure in found)
+    ratings = [mapping.sure.get(n) for n in NEEDED]
+    return bool(mapping.questions) or not any(ratings) or any(sure in ("likely", "guess") for sure in ratings)
 
 
-def _show(data: Json, held: Sequence[DataColumn], sure: Mapping[str, str], *, kept: bool) -> Json:
+def _show(data: Json, file_columns: Sequence[DataColumn], sure: Mapping[str, str], *, kept: bool) -> Json:
     rows = []
     columns = data.get("columns", {})
     missing = [n for n in NEEDED if n not in columns]
@@ -70,12 +70,13 @@ def _show(data: Json, held: Sequence[DataColumn], sure: Mapping[str, str], *, ke
     for name in (*columns, *missing):
         raw = columns.get(name, {"column": UNKNOWN, "unit": UNKNOWN})
         entry = {"column": raw} if isinstance(raw, str) else raw
-        how = "missing" if name in missing else sure.get(name, "certain")
-        asks = how in ("missing", "guess") or UNKNOWN in (entry["column"], entry.get("unit"))
-        rows.append({"channel": name, "unit": "", "sign": 1, "scale": 1, **entry, "sure": how, "asked": asks})
+        rating = "missing" if name in missing else sure.get(name, "certain")
+        asks = rating in ("missing", "guess") or UNKNOWN in (entry["column"], entry.get("unit"))
+        row = {"channel": name, "unit": "", "sign": 1, "scale": 1}
+        rows.append({**row, **entry, "sure": rating, "asked": asks})
     time = {"format": "seconds", "unit": "s", **data.get("time", {"column": UNKNOWN})}
     return {
-        "columns": [{"name": c.name, "unit": c.unit, "text": not c.is_number} for c in held],
+        "columns": [{"name": c.name, "unit": c.unit, "text": not c.is_number} for c in file_columns],
         "rows": rows,
         "time": {k: str(v) if k == "origin" else v for k, v in time.items()},
         "file": data.get("file", {}),
@@ -84,29 +85,29 @@ def _show(data: Json, held: Sequence[DataColumn], sure: Mapping[str, str], *, ke
     }
 
 
-def write(given: Mapping[str, Any]) -> str:
+def write(entries: Mapping[str, Any]) -> str:
     """``mapping.toml`` from the page's entries; rows without a column are left out."""
 
     def table(values: Mapping[str, Any], *names: str) -> dict[str, Any]:
         return {k: values[k] for k in names if values.get(k) not in (None, "", [])}
 
-    time, columns = given.get("time", {}), tomlkit.table()
+    time, columns = entries.get("time", {}), tomlkit.table()
     seconds = time.get("format", "seconds") == "seconds"
-    for row in given.get("rows", []):
+    for row in entries.get("rows", []):
         if row.get("column") and row["column"] != UNKNOWN:
             entry = {k: v for k, v in row.items() if v != {"sign": 1, "scale": 1, "offset": 0}.get(k)}
             columns[row["channel"]] = tomlkit.inline_table()
             columns[row["channel"]].update(table(entry, "column", "unit", "sign", "scale", "offset"))
-    whole: dict[str, Any] = {
+    document: dict[str, Any] = {
         "time": table(time, "column", "format") | (table({"unit": "s", **time}, "unit") if seconds else {})
     }
     if seconds and (origin := _read_instant(time.get("origin"))):
-        whole["time"]["origin"] = origin
-    whole |= {"file": table(given.get("file", {}), "line", "lines", "part"), "columns": columns}
-    axes = {a: given.get("axes", {}).get(a, a) for a in "xyz"}
-    whole |= {"axes": axes} if any(v != a for a, v in axes.items()) else {}
+        document["time"]["origin"] = origin
+    document |= {"file": table(entries.get("file", {}), "line", "lines", "part"), "columns": columns}
+    axes = {a: entries.get("axes", {}).get(a, a) for a in "xyz"}
+    document |= {"axes": axes} if any(v != a for a, v in axes.items()) else {}
     try:
-        return tomlkit.dumps({k: v for k, v in whole.items() if v or k == "columns"})
+        return tomlkit.dumps({k: v for k, v in document.items() if v or k == "columns"})
     except (TypeError, ValueError, TOMLKitError):
         raise UserError("a text or a number is needed", where="the mapping") from None
 
@@ -118,21 +119,21 @@ def _read_instant(value: Any) -> datetime | None:
         return None
 
 
-def try_mapping(m: Loaded, path: Path, given: Mapping[str, Any]) -> Json:
+def try_mapping(m: Loaded, path: Path, entries: Mapping[str, Any]) -> Json:
     """The mapping as text, what is still wrong with it, and what its channels look like on the first rows."""
     text = ""
     try:
-        text = write(given)
-        how = parse_mapping(text, UNWRITTEN)
-        return {"text": text, "error": None, "preview": _preview(m, path, how)}
+        text = write(entries)
+        mapping = parse_mapping(text, UNWRITTEN)
+        return {"text": text, "error": None, "preview": _preview(m, path, mapping)}
     except UserError as e:
         return {"text": text, "error": e.facts, "preview": []}
 
 
-def _preview(m: Loaded, path: Path, how: Mapped) -> list[Json]:
+def _preview(m: Loaded, path: Path, mapping: Mapped) -> list[Json]:
     columns = {c.name: c for c in sample_table(path).columns}
-    found = []
-    for name, e in how.channels.items():
+    rows = []
+    for name, e in mapping.channels.items():
         if e.column not in columns:
             raise UserError("the file has no such column", where=name, found=e.column)
         if not columns[e.column].is_number:
@@ -141,17 +142,17 @@ def _preview(m: Loaded, path: Path, how: Mapped) -> list[Json]:
         si = SI_UNITS.get(name, unit)
         x = columns[e.column].values * e.factor + e.offset
         x = m.instrument.units.to_si(x, unit, si, f"[columns] {name}") if unit != si else x
-        seen = x[np.isfinite(x)]
+        finite = x[np.isfinite(x)]
         step = max(1, len(x) // POINTS)
-        middle = numbers.number(float(np.median(seen)), 4) if len(seen) else numbers.ABSENT
-        ends = [numbers.number(float(v), 3) for v in (seen.min(), seen.max())] if len(seen) else []
+        middle = numbers.number(float(np.median(finite)), 4) if len(finite) else numbers.ABSENT
+        ends = [numbers.number(float(v), 3) for v in (finite.min(), finite.max())] if len(finite) else []
         row = {"channel": name, "unit": numbers.unit(si), "median": middle, "ends": ends}
-        found.append(row | {"points": x[::step][:POINTS].tolist()})
-    return found
+        rows.append(row | {"points": x[::step][:POINTS].tolist()})
+    return rows
 
 
-def keep(m: Loaded, path: Path, given: Mapping[str, Any], *, replace: bool) -> None:
+def keep(m: Loaded, path: Path, entries: Mapping[str, Any], *, replace: bool) -> None:
     """Lay the mapping down in the model directory, where every command finds it; never over another unasked."""
-    text = write(given)
+    text = write(entries)
     _preview(m, path, parse_mapping(text, UNWRITTEN))
     keep_mapping(m, text, replace=replace)

@@ -120,9 +120,10 @@ def _make_plain(x: Any) -> Any:
 
 def _show_state(session: Session, request: Request) -> Any:
     status, s = {"status": session.jobs.status.as_json()}, session.state
-    if session.shown is None or session.shown[0] is not s:  # a state never changes: it is described once
-        session.shown = s, views.overview(s)
-    return status | session.shown[1]
+    # a state never changes: it is described once
+    if session.overview is None or session.overview[0] is not s:
+        session.overview = s, views.overview(s)
+    return status | session.overview[1]
 
 
 async def _send_events(session: Session, request: Request) -> Response:
@@ -273,14 +274,14 @@ def _leave(session: Session, body: Body) -> None:
 
 def _edit(session: Session, body: Body) -> None:
     """Values of the test sheet: name -> as many numbers as accelerometers, unit, sigma, fixed."""
-    found: dict[str, SheetEdit] = {}
-    for name, given in body["values"].items():
-        sigma = None if given.get("sigma") is None else tuple(map(float, given["sigma"]))
-        value = RawQuantity(tuple(map(float, given["value"])), given["unit"])
-        found[name] = SheetEdit(value, sigma, given.get("fixed") is True)
-    if not found:
+    edits: dict[str, SheetEdit] = {}
+    for name, entry in body["values"].items():
+        sigma = None if entry.get("sigma") is None else tuple(map(float, entry["sigma"]))
+        value = RawQuantity(tuple(map(float, entry["value"])), entry["unit"])
+        edits[name] = SheetEdit(value, sigma, entry.get("fixed") is True)
+    if not edits:
         raise UserError("no value was changed", remedy="change one, then save")
-    session.edit(found)
+    session.edit(edits)
 
 
 ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {

@@ -135,8 +135,8 @@ def fit_effects(
 @one_thread
 def predict_error(f: Fitted, problem: ProjectedProblem, effects: Sequence[str]) -> tuple[float, float]:
     """The error before demodulation, Eo, calibrated and held out, that these effects would leave if everything is linear."""
-    whole, held_out = f.score([fit_effects(f, problem, effects, held_out=h) for h in (False, True)])
-    return whole.whole.rms_Eo, held_out.held_out.rms_Eo
+    fit_scores, held_out = f.score([fit_effects(f, problem, effects, held_out=h) for h in (False, True)])
+    return fit_scores.whole.rms_Eo, held_out.held_out.rms_Eo
 
 
 @dataclass(frozen=True)
@@ -153,9 +153,9 @@ class Heat:
 
 
 @one_thread
-def score_terms(f: Fitted, flight: int, given: Sequence[int] = ()) -> Heat:
-    """The scores of all terms in one flight once base and ``given`` candidate columns are projected out, in one pass."""
-    prepared, projector, _ = omnibus.project_out(f, flight, given)
+def score_terms(f: Fitted, flight: int, projected: Sequence[int] = ()) -> Heat:
+    """The scores of all terms in one flight once base and ``projected`` candidate columns are projected out, in one pass."""
+    prepared, projector, _ = omnibus.project_out(f, flight, projected)
     s = Scores(prepared, projector)
     s.collect(lambda piece, y: None)
     norm = np.where(np.isfinite(s.norms), s.norms, np.nan)
@@ -166,9 +166,9 @@ def score_terms(f: Fitted, flight: int, given: Sequence[int] = ()) -> Heat:
     row, column = ({name: k for k, name in enumerate(names)} for names in (rows, columns))
     for k, t in enumerate(terms):
         if t.harmonic in row:
-            at = row[t.harmonic], column[t.product]
-            z[at] = s.dot[k] / norm[k]
-            coefficient[at] = z[at] / (norm[k] * s.dictionary.size(t))
+            cell = row[t.harmonic], column[t.product]
+            z[cell] = s.dot[k] / norm[k]
+            coefficient[cell] = z[cell] / (norm[k] * s.dictionary.size(t))
     share = omnibus.FAMILY * omnibus.SHARES[0] / (2 * max(int(np.sum(np.isfinite(norm))), 1))
     return Heat(
         harmonics=rows, products=columns, z=z, coefficient=coefficient, level=-float(special.ndtri(share))
@@ -189,10 +189,10 @@ def compute_term(prepared: PreparedFlight, harmonic: str, product: str, coeffici
 def draw_series(s: State, a: Asked) -> bytes:
     """The window of a series that is asked for."""
     if s.compared is None and a.what == "measured" and 0 <= a.flight < len(s.flights):
-        made = _read_unexamined(s, a.flight)
+        series = _read_unexamined(s, a.flight)
     else:
-        made = View(s, a).sample()
-    return made.window(a.first, a.last, a.points)
+        series = View(s, a).sample()
+    return series.window(a.first, a.last, a.points)
 
 
 def _read_unexamined(s: State, flight: int) -> Sampled:
@@ -209,12 +209,12 @@ class View:
     def __init__(self, s: State, a: Asked) -> None:
         self.s, self.a = s, a
         self.c, flight = s.result_for(a.flight)
-        self.f, self.kept = self.c.fitted, self.c is not s.compared
-        known = [n for n, o in enumerate(self.f.observations) if o.flight == flight]
-        if not 0 <= a.output < len(known):
+        self.f, self.validation = self.c.fitted, self.c is not s.compared
+        positions = [n for n, o in enumerate(self.f.observations) if o.flight == flight]
+        if not 0 <= a.output < len(positions):
             found = f"flight {a.flight + 1}, output {a.output + 1}"
             raise UserError("there is no such flight", found=found)
-        self.n = known[a.output]
+        self.n = positions[a.output]
         self.prepared, self.k_ggi = self.f.prepared[self.n], self.f.scales[self.n]
         self.record, self.residual = self.prepared.observation.record, self.c.residual[self.n]
 
@@ -232,19 +232,19 @@ class View:
             return sample(float(r.time[0]), 1.0 / r.rate, np.where(r.valid, r.wide[name], np.nan))
         effects = self.a.effects if kind in ("effect", "left") else ()
         make = self._draw_fan if kind == "fan" else lambda: self._convert(self.volts(self.a.what))
-        found: Sampled = self.remember(("drawn", self.a.what, self.a.unit, effects), make)
-        return found
+        drawn: Sampled = self.remember(("drawn", self.a.what, self.a.unit, effects), make)
+        return drawn
 
     def _draw_fan(self) -> Sampled:
         """The outermost residuals of models drawn from the posterior of the parameters, the same ones each time."""
-        if self.kept:
+        if self.validation:
             raise UserError("no model is drawn for a validation flight")
         draws = np.random.default_rng(0).standard_normal((MODELS, self.f.n_base))
         root = invert_root(information(self.f))
-        left = self.prepared.residuals(np.stack([self.f.vector(root @ x) for x in draws]))
-        each = [self._convert(x) for x in left]
-        values = [x.values for x in each]
-        return replace(each[0], values=np.stack([np.fmin.reduce(values), np.fmax.reduce(values)]))
+        residuals = self.prepared.residuals(np.stack([self.f.vector(root @ x) for x in draws]))
+        series = [self._convert(x) for x in residuals]
+        values = [x.values for x in series]
+        return replace(series[0], values=np.stack([np.fmin.reduce(values), np.fmax.reduce(values)]))
 
     def _convert(self, x: Array) -> Sampled:
         """A series, V, in the unit that is asked for."""
@@ -263,7 +263,7 @@ class View:
     def _predict_left(self) -> Array:
         """What the ticked effects would leave of the residual (N,), V."""
         d, effects = self.s.require("diagnosed"), self.a.effects
-        if self.kept:
+        if self.validation:
             raise UserError("no effect is predicted for a validation flight")
 
         def make() -> list[Array]:
@@ -309,13 +309,13 @@ class View:
     def terms(self, effects: tuple[str, ...]) -> Heat:
         """Harmonic x motion term of the residual once these effects are in."""
         d = self.s.diagnosed
-        if self.kept:
+        if self.validation:
             d, effects = None, ()
         f = self.f if d is None else d.fitted
-        given = [] if d is None else list_columns(make_problem_of(d), effects)
-        make = lambda: score_terms(f, self.n, given)  # noqa: E731
-        found: Heat = self.remember(("heat", effects, d is None), make)
-        return found
+        columns = [] if d is None else list_columns(make_problem_of(d), effects)
+        make = lambda: score_terms(f, self.n, columns)  # noqa: E731
+        heat: Heat = self.remember(("heat", effects, d is None), make)
+        return heat
 
     def _fit_term(self, name: str) -> Array:
         harmonic, _, product = name.partition(":")
@@ -341,8 +341,8 @@ class View:
         first, last = ((t - t0) * rate for t in (self.a.first, self.a.last))
         i, j = int(np.clip(np.floor(first), 0, n)), int(np.clip(np.ceil(last) + 1, 0, n))
         if j - i < 64:
-            found = f"{max(0, j - i)} samples"
-            raise UserError("the segment is too short for a spectrum", found=found)
+            size = f"{max(0, j - i)} samples"
+            raise UserError("the segment is too short for a spectrum", found=size)
         return slice(i, j)
 
 
@@ -352,13 +352,13 @@ class View:
 def draw_preview(s: State, a: Asked) -> dict[str, Any]:
     """The error that the ticked effects would leave, and that without them."""
     d = s.require("diagnosed")
-    known = make_problem_of(d)
+    problem = make_problem_of(d)
 
     def predicted(*effects: str) -> tuple[float, float]:
-        make = lambda: predict_error(d.fitted, known, effects)  # noqa: E731
+        make = lambda: predict_error(d.fitted, problem, effects)  # noqa: E731
         return s.cache.get(("predicted", effects), make)
 
-    rms, held_out = predicted(*(e for e in a.effects if e in known.candidates))
+    rms, held_out = predicted(*(e for e in a.effects if e in problem.candidates))
     return {"rms_Eo": rms, "holdout_Eo": held_out, "before_Eo": predicted()[0], "noise_Eo": d.noise_floor}
 
 
@@ -367,15 +367,15 @@ def draw_spectra(s: State, a: Asked) -> dict[str, Any]:
     v = View(s, a)
     r, rows, lines = v.record, v.rows(), {}
     ticked = a.effects and s.diagnosed is not None
-    wanted = {"before": s.previous, "residual": True, "left": ticked}
-    for name in (k for k, there in wanted.items() if there):
+    available = {"before": s.previous, "residual": True, "left": ticked}
+    for name in (k for k, present in available.items() if present):
         try:
             x = v.volts(name)[rows]
         except UserError:
             continue
-        found = panels.estimate_spectrum(x / v.k_ggi, r.valid[rows], r.rate, DENSE)
-        if found is not None:
-            lines[name] = found
+        spectrum = panels.estimate_spectrum(x / v.k_ggi, r.valid[rows], r.rate, DENSE)
+        if spectrum is not None:
+            lines[name] = spectrum
     if not lines:
         raise UserError("no segment without gaps is long enough for a spectrum")
     grid = next(iter(lines.values())).frequency
@@ -415,14 +415,14 @@ def spectrogram(
     if size < 16:
         return np.zeros(0), np.zeros(0), np.zeros((0, 0))
     hop = max(1, size // 4, -(-(len(x) - size) // MOST_COLUMNS))
-    given = np.where(valid, x, 0.0)
-    f, t, p = signal.spectrogram(given, rate, "hann", size, size - hop, detrend="constant")
+    filled = np.where(valid, x, 0.0)
+    f, t, p = signal.spectrogram(filled, rate, "hann", size, size - hop, detrend="constant")
     share = np.lib.stride_tricks.sliding_window_view(valid, size)[::hop].mean(axis=1)
-    kept = (f > 0.0) & (f <= highest)
-    f, p = f[kept], np.where(share >= LEAST, p[kept] / np.maximum(share, LEAST), np.nan)
-    by = -(-len(f) // ROWS)
-    whole = len(f) // by * by
-    f, p = (v[:whole].reshape(-1, by, *v.shape[1:]).mean(axis=1) for v in (f, p))
+    band = (f > 0.0) & (f <= highest)
+    f, p = f[band], np.where(share >= LEAST, p[band] / np.maximum(share, LEAST), np.nan)
+    group = -(-len(f) // ROWS)
+    end = len(f) // group * group
+    f, p = (v[:end].reshape(-1, group, *v.shape[1:]).mean(axis=1) for v in (f, p))
     return np.asarray(t), np.asarray(f), np.sqrt(p)
 
 
@@ -436,13 +436,13 @@ def draw_heat(s: State, a: Asked) -> dict[str, Any]:
         if not any(c in p for c in "*(") and not p.startswith(("d_", "d2_"))
     ]
     rest = [int(k) for k in np.argsort(-strongest, kind="stable") if k not in single]
-    chosen = [*single, *rest[: max(0, COLUMNS - len(single))]]
+    products = [*single, *rest[: max(0, COLUMNS - len(single))]]
     # without spin there are no harmonics
-    there = [i for i in range(len(h.harmonics)) if np.isfinite(h.z[i]).any()]
+    rows = [i for i in range(len(h.harmonics)) if np.isfinite(h.z[i]).any()]
     return {
-        "harmonics": [{"id": h.harmonics[i], "words": numbers.harmonic(h.harmonics[i])} for i in there],
-        "products": [{"id": h.products[k], "words": numbers.product(h.products[k])} for k in chosen],
-        "z": [[float(h.z[i, k]) for k in chosen] for i in there],
+        "harmonics": [{"id": h.harmonics[i], "words": numbers.harmonic(h.harmonics[i])} for i in rows],
+        "products": [{"id": h.products[k], "words": numbers.product(h.products[k])} for k in products],
+        "z": [[float(h.z[i, k]) for k in products] for i in rows],
         "level": h.level,
         "tried": int(np.sum(np.isfinite(h.z))),
     }

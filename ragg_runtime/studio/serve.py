@@ -67,8 +67,8 @@ def serve(
     sys.setswitchinterval(SWITCH)
     session = Session(Places.of(model, flights))
     with _listen(port) as listening:
-        own = int(listening.getsockname()[1])
-        guard = Guard(make_application(session), own, (UPLOAD,))
+        bound_port = int(listening.getsockname()[1])
+        guard = Guard(make_application(session), bound_port, (UPLOAD,))
         config = uvicorn.Config(
             guard,
             log_level="warning",
@@ -82,7 +82,7 @@ def serve(
         )
         if model is not None:
             session.open(model, flights)  # first: a page that is opened at once finds it being read
-        address = f"http://{LOOPBACK}:{own}/?token={guard.token}"
+        address = f"http://{LOOPBACK}:{bound_port}/?token={guard.token}"
         say(address)
         if browser:
             webbrowser.open(address)
@@ -93,18 +93,18 @@ def serve(
 
 def _listen(port: int) -> socket.socket:
     """A socket on the loopback alone; 0 takes a free port."""
-    made = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-    made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
-        made.bind((LOOPBACK, port))
+        listening.bind((LOOPBACK, port))
     except OSError as error:
-        made.close()
+        listening.close()
         remedy = "choose another with --port"
         raise UserError(
             "the port cannot be used", where=str(port), found=error.strerror, remedy=remedy
         ) from None
-    made.listen(128)
-    return made
+    listening.listen(128)
+    return listening
 
 
 class Connection(H11Protocol):
@@ -152,46 +152,46 @@ class Guard:
         headers, path, safe = Headers(scope=scope), scope["path"], scope["method"] in ("GET", "HEAD")
         hosts, origins = headers.getlist("host"), headers.getlist("origin")
         if len(hosts) != 1 or hosts[0] not in self._hosts:
-            return _refusal("this server answers to 127.0.0.1 only", 421)
+            return _answer_refused("this server answers to 127.0.0.1 only", 421)
         if any(o != f"http://{hosts[0]}" for o in origins):
-            return _refusal(ELSEWHERE)
+            return _answer_refused(ELSEWHERE)
         if headers.get("sec-fetch-site", "same-origin") not in ("same-origin", *(["none"] if safe else [])):
-            return _refusal(ELSEWHERE)
+            return _answer_refused(ELSEWHERE)
         if not safe and len(origins) != 1:
-            return _refusal("a request that changes something needs an Origin header")
+            return _answer_refused("a request that changes something needs an Origin header")
         length = headers.get("content-length", "0" if safe else "")
         if not length.isdecimal() or (int(length) > BODY and path not in self._uploads):
-            return _refusal("the request is too long, or has no length", 413)
+            return _answer_refused("the request is too long, or has no length", 413)
         if self._is_known(headers):
             return RedirectResponse("/", 303) if path == "/" and scope["query_string"] else None
         if path == "/" and scope["method"] == "GET":
             token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
             if secrets.compare_digest(token.encode(), self.token.encode()) and not self._used:
                 self._used = True
-                found = RedirectResponse("/", 303)  # the token does not stay in the address
-                found.set_cookie(self._cookie, self._secret, httponly=True, samesite="strict", path="/")
-                return found
-        return _refusal(ONCE)
+                response = RedirectResponse("/", 303)  # the token does not stay in the address
+                response.set_cookie(self._cookie, self._secret, httponly=True, samesite="strict", path="/")
+                return response
+        return _answer_refused(ONCE)
 
     def _is_known(self, headers: Headers) -> bool:
         try:
-            found = SimpleCookie(headers.get("cookie", "")).get(self._cookie)
+            cookie = SimpleCookie(headers.get("cookie", "")).get(self._cookie)
         except CookieError:
             return False
-        return found is not None and secrets.compare_digest(found.value.encode(), self._secret.encode())
+        return cookie is not None and secrets.compare_digest(cookie.value.encode(), self._secret.encode())
 
 
 def _add_headers(send: Send) -> Send:
     async def sent(message: Message) -> None:
         if message["type"] == "http.response.start":
             picture = (b"content-type", b"image/svg+xml") in message["headers"]
-            own = {k.encode(): v.encode() for k, v in (HEADERS | PICTURE if picture else HEADERS).items()}
-            others = [(k, v) for k, v in message["headers"] if k.lower() not in own]
-            message = {**message, "headers": [*others, *own.items()]}
+            fixed = {k.encode(): v.encode() for k, v in (HEADERS | PICTURE if picture else HEADERS).items()}
+            further = [(k, v) for k, v in message["headers"] if k.lower() not in fixed]
+            message = {**message, "headers": [*further, *fixed.items()]}
         await send(message)
 
     return sent
 
 
-def _refusal(why: str, status: int = 403) -> Response:
-    return PlainTextResponse(f"refused: {why}\n", status)
+def _answer_refused(reason: str, status: int = 403) -> Response:
+    return PlainTextResponse(f"refused: {reason}\n", status)

@@ -52,19 +52,19 @@ class SeriesCache:
     """Things that were made of a state, by name; the oldest are forgotten."""
 
     def __init__(self) -> None:
-        self._found: dict[tuple[object, ...], Any] = {}
+        self._series: dict[tuple[object, ...], Any] = {}
         self._lock = threading.Lock()
 
     def get(self, key: tuple[object, ...], make: Callable[[], T]) -> T:
         """What belongs to ``key``."""
-        found = self._found.get(key)
-        if found is None:
-            found = make()
+        series = self._series.get(key)
+        if series is None:
+            series = make()
             with self._lock:
-                while len(self._found) >= SERIES:
-                    self._found.pop(next(iter(self._found)))
-                self._found[key] = found
-        return found
+                while len(self._series) >= SERIES:
+                    self._series.pop(next(iter(self._series)))
+                self._series[key] = series
+        return series
 
 
 @dataclass(frozen=True)
@@ -93,10 +93,10 @@ class State:
 
     def require(self, name: str) -> Any:
         """What is known under a name of the state; UserError if it is not yet."""
-        found = getattr(self, name)
-        if found is None:
+        result = getattr(self, name)
+        if result is None:
             raise UserError("there is no result yet", remedy=REMEDIES[name])
-        return found
+        return result
 
     @property
     def model(self) -> Loaded:
@@ -140,7 +140,7 @@ class Session:
         self.places = places
         self.jobs = Jobs()
         self.state = State()
-        self.shown: tuple[State, dict[str, Any]] | None = None
+        self.overview: tuple[State, dict[str, Any]] | None = None
         self._lock = threading.Lock()
 
     def _put(self, **changes: object) -> None:
@@ -170,15 +170,15 @@ class Session:
                 self._forget(paths=tuple(flights), flights=(), read=(), cuts=(), kept=0)
                 part("reading and examining the flights", 1.0)
                 try:
-                    read = tuple(api.read_flights(self.state.model, flights))
+                    records = tuple(api.read_flights(self.state.model, flights))
                 except UserError:
                     if any(is_foreign(self.state.model, p) for p in flights):
                         return  # the page asks what the columns are
                     raise
                 places = tuple(
-                    x.path or flights[0] for x in read
+                    x.path or flights[0] for x in records
                 )  # a file of several lines is as many flights
-                self._put(paths=places, flights=read, read=read, cuts=((),) * len(read))
+                self._put(paths=places, flights=records, read=records, cuts=((),) * len(records))
             self._look(part)
 
         self.jobs.start("opening", work)
@@ -203,15 +203,15 @@ class Session:
         """Keep a flight out of the calibration, at the end of the list; one that is kept already is fitted again."""
         s = self._idle(flight)
         first = len(s.flights) - s.kept
-        kept = s.kept + (1 if flight < first else -1)
-        if kept == len(s.flights):
+        count = s.kept + (1 if flight < first else -1)
+        if count == len(s.flights):
             raise UserError("one flight at least is needed to calibrate", remedy="open another flight")
         order = [n for n in range(len(s.flights)) if n != flight]
         order.insert(len(s.flights) - 1 if flight < first else first, flight)
         moved = {
             name: tuple(getattr(s, name)[n] for n in order) for name in ("paths", "flights", "read", "cuts")
         }
-        self._forget(**moved, kept=kept)
+        self._forget(**moved, kept=count)
         self.look()
 
     def look(self) -> None:
@@ -283,8 +283,8 @@ class Session:
         """Undo, redo, or go back to the state after a step of the history."""
         self._idle()
         m = self.state.model
-        history, known = m.directory.history, Branches(m.directory.history)
-        to = {"undo": known.undo, "redo": known.redo}.get(action, step)
+        history, branches = m.directory.history, Branches(m.directory.history)
+        to = {"undo": branches.undo, "redo": branches.redo}.get(action, step)
         if to is None or not 0 <= to < len(history) or not history[to].text:
             raise UserError(f"there is nothing to {action}")
         self._change(api.change(m, history[to].text, action, str(to)))
@@ -332,8 +332,8 @@ class Session:
 def list_own(m: Loaded, effect: str, add: str, units: Mapping[str, str]) -> Loaded:
     """The model with an effect of one's own listed, ``add`` at the transducer (unit of each parameter), in memory alone."""
     if effect in derive.list_known(m.instrument):
-        found, remedy = repr(effect[:80]), "choose another name"
-        raise UserError("an effect of this id exists already", found=found, remedy=remedy)
+        quoted, remedy = repr(effect[:80]), "choose another name"
+        raise UserError("an effect of this id exists already", found=quoted, remedy=remedy)
     parameters = MappingProxyType({n: MappingProxyType({"unit": u}) for n, u in units.items()})
     expression = MappingProxyType({"stage": "transducer", "add": add, "params": parameters})
     return api.as_of(m, add_effect(m.directory.text, EffectSetting(effect, expression=expression)))
@@ -347,33 +347,33 @@ class Branches:
 
     def __init__(self, history: Sequence[HistoryStep]) -> None:
         self.parents: dict[int, int | None] = {}
-        self.now: int | None = None
+        self.current: int | None = None
         after: list[int | None] = []
         for n, s in enumerate(history):
             if s.action in ("undo", "redo", "restore"):
-                self.now = after[int(s.effect)]
+                self.current = after[int(s.effect)]
             elif s.action != "calibrate":  # which leaves the model as it is
-                self.parents[n], self.now = self.now, n
-            after.append(self.now)
+                self.parents[n], self.current = self.current, n
+            after.append(self.current)
 
     @property
     def path(self) -> list[int]:
         """The steps that lead to the present state."""
-        found, n = [], self.now
+        steps, n = [], self.current
         while n is not None:
-            found.append(n)
+            steps.append(n)
             n = self.parents[n]
-        return found[::-1]
+        return steps[::-1]
 
     @property
     def undo(self) -> int | None:
         """The state before the present one."""
-        return None if self.now is None else self.parents[self.now]
+        return None if self.current is None else self.parents[self.current]
 
     @property
     def redo(self) -> int | None:
         """The state that was made of the present one last."""
-        return max((n for n, parent in self.parents.items() if parent == self.now), default=None)
+        return max((n for n, parent in self.parents.items() if parent == self.current), default=None)
 
 
 # --- jobs ----------------------------------------------------------------------------------------------

@@ -48,7 +48,7 @@ def overview(s: State) -> Json:
         "unread": [] if s.flights else [str(p) for p in s.paths],
         "banner": None if c is None else _show_banner(c, d),
         "effects": [] if d is None else show_effects(d),
-        "untestable": [] if d is None else [_about(d, n.effect) | {"why": n.why} for n in d.not_testable],
+        "untestable": [] if d is None else [_describe(d, n.effect) | {"why": n.why} for n in d.not_testable],
         "unexplained": None if d is None else _show_unexplained(d),
         "next_motion": [] if d is None else [describe.motion_sentence(p.as_json()) for p in d.next_motion],
         "parameters": None if c is None else show_sections(panels.describe_parameters(c.fitted)),
@@ -129,10 +129,10 @@ def _tabulate_discs(i: Instrument) -> Table:
     """The discs and what sits on them."""
     layout, rows = i.layout, []
     for k, d in enumerate(layout.discs):
-        own = [(n, p) for n, p in zip(layout.names, layout.places, strict=True) if p.disc == k]
-        places = ", ".join(f"{n} at {math.degrees(p.angle):.4g}°" for n, p in own)
-        radii = ", ".join(f"{r:g}" for r in sorted({p.radius for _, p in own}))
-        outputs = ", ".join(dict.fromkeys(layout.output_names[p.output] for _, p in own))
+        members = [(n, p) for n, p in zip(layout.names, layout.places, strict=True) if p.disc == k]
+        places = ", ".join(f"{n} at {math.degrees(p.angle):.4g}°" for n, p in members)
+        radii = ", ".join(f"{r:g}" for r in sorted({p.radius for _, p in members}))
+        outputs = ", ".join(dict.fromkeys(layout.output_names[p.output] for _, p in members))
         axis = ", ".join(f"{x:g}" for x in d.axis)
         rows.append((d.name or str(k + 1), f"{d.spin_frequency:g}", radii, axis, places, outputs))
     return Table(("disc", "spin, Hz", "radius, m", "axis", "accelerometers", "output"), tuple(rows), words=6)
@@ -140,10 +140,10 @@ def _tabulate_discs(i: Instrument) -> Table:
 
 def _show_history(m: Loaded) -> Json:
     history = m.directory.history
-    known = Branches(history)
-    present = known.path
+    branches = Branches(history)
+    present = branches.path
     return {
-        "now": known.now,
+        "now": branches.current,
         "steps": [
             {
                 "n": n,
@@ -159,8 +159,8 @@ def _show_history(m: Loaded) -> Json:
             }
             for n, s in enumerate(history)
         ],
-        "can_undo": known.undo is not None,
-        "can_redo": known.redo is not None,
+        "can_undo": branches.undo is not None,
+        "can_redo": branches.redo is not None,
     }
 
 
@@ -178,16 +178,16 @@ def _show_steps(m: Loaded, c: Comparison) -> list[Json]:
 
 def show_flights(s: State) -> list[Json]:
     """Every flight that is open; before it is compared, what a first look shows."""
-    found: list[Json] = []
+    entries: list[Json] = []
     if not s.flights:  # they are being read
-        return found
+        return entries
     for n, (x, p, cuts) in enumerate(zip(s.flights, s.paths, s.cuts, strict=True)):
-        seen = []
+        observations = []
         if s.compared is not None:
-            c, at = s.result_for(n)
-            seen = [o for o in c.fitted.observations if o.flight == at]
-        valid = seen[0].record.valid if seen else x.valid
-        found.append(
+            c, position = s.result_for(n)
+            observations = [o for o in c.fitted.observations if o.flight == position]
+        valid = observations[0].record.valid if observations else x.valid
+        entries.append(
             {
                 "name": x.name,
                 "path": str(p),
@@ -202,12 +202,12 @@ def show_flights(s: State) -> list[Json]:
                 "kept": n >= len(s.flights) - s.kept,
                 "parts": [
                     {"name": o.output.name, "spin_Hz": abs(o.record.spin_frequency) * o.record.turning}
-                    for o in seen
+                    for o in observations
                 ],
                 "missing": find_missing(valid, x.rate),
             }
         )
-    return found
+    return entries
 
 
 def find_missing(valid: NDArray[np.bool_], rate: float) -> Json:
@@ -249,7 +249,7 @@ def _show_error(e: Any) -> Json:
     return {"json": e.as_json(), "rms_Eo": e.rms_Eo, "text": numbers.number(e.rms_Eo)}
 
 
-def _about(d: Diagnosis, effect: str) -> Json:
+def _describe(d: Diagnosis, effect: str) -> Json:
     """The catalogue's entry of an effect; only the id of one that the model does not have."""
     e: Any = d.fitted.model.effect(effect)
     if e is None:
@@ -263,19 +263,19 @@ def show_effects(d: Diagnosis) -> list[Json]:
     level = math.log(false_alarms.CATALOGUE / max(1, len(d.ranking)))
     # what these would do can be predicted: their columns are in the R factors
     linear = {e.id for e in d.fitted.model.candidates if e.kind in ("deterministic", "step")}
-    found: list[Json] = []
+    entries: list[Json] = []
     for r in d.ranking:
-        own: Any = r.as_json()
+        result: Any = r.as_json()
         significant, claimed = r.test.rank > 0 and r.log_p < level, r.effect in d.found
-        best = describe.choose_values(own) if significant or claimed else []
-        found.append(
+        best = describe.choose_values(result) if significant or claimed else []
+        entries.append(
             {
-                **_about(d, r.effect),
+                **_describe(d, r.effect),
                 "found": claimed,
                 "significant": significant,
-                "p": numbers.probability(own["log10_p"]),
-                "probability": own["probability"],
-                "chance": describe.chance(own["probability"], own["log10_p"]),
+                "p": numbers.probability(result["log10_p"]),
+                "probability": result["probability"],
+                "chance": describe.chance(result["probability"], result["log10_p"]),
                 "after_Eo": r.after.rms_Eo,
                 "holdout_Eo": r.after_holdout.rms_Eo,
                 "testable": r.test.rank > 0 and r.effect in linear,
@@ -284,7 +284,7 @@ def show_effects(d: Diagnosis) -> list[Json]:
                 "indistinguishable": list(r.indistinguishable_from),
             }
         )
-    return found
+    return entries
 
 
 def _show_unexplained(d: Diagnosis) -> Json:
@@ -307,9 +307,9 @@ def _show_unexplained(d: Diagnosis) -> Json:
 
 def _show_validation(s: State) -> list[Json]:
     """How the calibration of the other flights holds on those kept for validation."""
-    held: Any = s.held
+    result: Any = s.held
     names = [x.name for x in s.flights[len(s.flights) - s.kept :]]
-    return show_sections(describe.describe_held(held.as_json(), names))
+    return show_sections(describe.describe_held(result.as_json(), names))
 
 
 def _show_compensation(s: State) -> Json:
@@ -344,10 +344,10 @@ def mathml(latex: str, *, block: bool = False) -> str:
         return plain
     text = _OPERATOR.sub(r"\1=", _BOLD.sub(r"\\mathbf", latex))
     try:
-        made = str(convert(text, display="block" if block else "inline"))
+        element = str(convert(text, display="block" if block else "inline"))
     except Exception:  # if the converter fails on a text, the text itself is shown
         return plain
-    return made if "\\" not in made else plain
+    return element if "\\" not in element else plain
 
 
 # --- what one takes along ------------------------------------------------------------------------------
@@ -358,43 +358,43 @@ def commands(s: State) -> list[str]:
     if s.loaded is None:
         return []
     model, first = shlex.quote(str(s.loaded.directory.path)), len(s.paths) - s.kept
-    files, fitted, kept = (
+    files, fitted, validation = (
         shlex.join(dict.fromkeys(map(str, paths))) for paths in (s.paths, s.paths[:first], s.paths[first:])
     )
-    found = []
+    lines = []
     if s.paths:
         claims = s.diagnosed.found if s.diagnosed is not None else ()
-        found += [f"ragg {c} {model} {fitted}" for c in ("compare", "diagnose")]
-        found += [f"ragg add {model} {shlex.quote(e)} {fitted}" for e in claims]
-    found.append(f"ragg history {model}")
+        lines += [f"ragg {c} {model} {fitted}" for c in ("compare", "diagnose")]
+        lines += [f"ragg add {model} {shlex.quote(e)} {fitted}" for e in claims]
+    lines.append(f"ragg history {model}")
     if s.paths:
-        found.append(f"ragg calibrate {model} {fitted} --save")
+        lines.append(f"ragg calibrate {model} {fitted} --save")
     if s.kept:
-        found.append(f"ragg compare {model} {kept} --frozen")
-    found.append(f"ragg export {model} model-c --c")
+        lines.append(f"ragg compare {model} {validation} --frozen")
+    lines.append(f"ragg export {model} model-c --c")
     if s.compensated is not None:
-        how = s.compensated.result
-        options = f"--calibration {how['calibration']} --demodulator {how['demodulator']['name']}"
-        found.append(f"ragg compensate {model} {files} -o compensated.csv {options}")
+        result = s.compensated.result
+        options = f"--calibration {result['calibration']} --demodulator {result['demodulator']['name']}"
+        lines.append(f"ragg compensate {model} {files} -o compensated.csv {options}")
     cuts = [(x.name, c) for x, cuts in zip(s.flights, s.cuts, strict=True) for c in cuts]
     # a name of several lines would go on as a command
     return [
         *_list_done(s, model, files),
         *(one_line(f"# {name}: {LEFT_OUT.format(*c)}") for name, c in cuts),
-        *found,
+        *lines,
     ]
 
 
 def _list_done(s: State, model: str, flights: str) -> list[str]:
     """The steps of the present branch, as comments."""
-    history, known, found = s.model.directory.history, {x.name for x in s.flights}, []
+    history, names, lines = s.model.directory.history, {x.name for x in s.flights}, []
     for step in (history[n] for n in Branches(history).path):
         if step.action in ("add", "remove"):
-            on = f" {flights if set(step.flights) <= known else 'FLIGHTS'}" if step.flights else ""
-            found.append(f"# done: ragg {step.action} {model} {shlex.quote(step.effect)}{on}")
+            on = f" {flights if set(step.flights) <= names else 'FLIGHTS'}" if step.flights else ""
+            lines.append(f"# done: ragg {step.action} {model} {shlex.quote(step.effect)}{on}")
         elif step.action not in ("new", "restore"):
-            found.append(f"# done: {step.action} {numbers.clean(step.effect)}")
-    return [one_line(x) for x in found]
+            lines.append(f"# done: {step.action} {numbers.clean(step.effect)}")
+    return [one_line(x) for x in lines]
 
 
 def take_away(s: State, what: str) -> tuple[str, bytes]:
@@ -407,8 +407,8 @@ def take_away(s: State, what: str) -> tuple[str, bytes]:
 
 
 def _make_source(s: State, command: str) -> api.Source:
-    whole = next((c for c in commands(s) if c.startswith(f"ragg {command} ")), f"ragg {command}")
-    return api.Source(whole, s.model, s.fitted)
+    full_command = next((c for c in commands(s) if c.startswith(f"ragg {command} ")), f"ragg {command}")
+    return api.Source(full_command, s.model, s.fitted)
 
 
 def _write_steps(s: State) -> str:
@@ -427,16 +427,16 @@ def _write_compensated(s: State, name: str) -> bytes:
 
 def _write_export(s: State, form: str) -> bytes:
     """The model to run elsewhere, with the saved calibration: what ``ragg export`` writes, as one file."""
-    made = io.BytesIO()
-    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as z:
+    archive = io.BytesIO()
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as z:
         for path, text in api.FORMS[form](api.contents(s.model)).items():
             z.writestr(zipfile.ZipInfo(f"model-{form}/{path}"), text, zipfile.ZIP_DEFLATED)
-    return made.getvalue()
+    return archive.getvalue()
 
 
 def _write_json(s: State, name: str, command: str) -> str:
-    whole = s.require(name).as_json() | _make_source(s, command).as_json()
-    return json.dumps(whole, indent=1, allow_nan=False) + "\n"
+    document = s.require(name).as_json() | _make_source(s, command).as_json()
+    return json.dumps(document, indent=1, allow_nan=False) + "\n"
 
 
 FILES: Mapping[str, tuple[str, Callable[[State], str | bytes]]] = {

@@ -85,13 +85,13 @@ def group_notes(notes: Iterable[tuple[str, str]]) -> dict[str, list[str]]:
 
 def tabulate_errors(rows: Sequence[tuple[str, Json | None]]) -> Section:
     """The table of errors, before demodulation and of both channels; a dash where there is none."""
-    given = [e for _, e in rows if e is not None]
-    shown = [k for k in ERROR_HEADS if k == "rms_Eo" or any(e.get(k) is not None for e in given)]
-    cells = tuple((label, *(number((e or {}).get(k)) for k in shown)) for label, e in rows)
-    why = "the disc does not spin, or no part of the record is as long as the demodulator's low-pass."
-    missing = bool(given) and all(e.get("inline_Eo") is None for e in given)
-    note = f"No demodulated channels: {why}" if missing else ""
-    return Section("Errors", table=Table(("error", *(ERROR_HEADS[k] for k in shown)), cells, note=note))
+    errors = [e for _, e in rows if e is not None]
+    keys = [k for k in ERROR_HEADS if k == "rms_Eo" or any(e.get(k) is not None for e in errors)]
+    cells = tuple((label, *(number((e or {}).get(k)) for k in keys)) for label, e in rows)
+    reason = "the disc does not spin, or no part of the record is as long as the demodulator's low-pass."
+    missing = bool(errors) and all(e.get("inline_Eo") is None for e in errors)
+    note = f"No demodulated channels: {reason}" if missing else ""
+    return Section("Errors", table=Table(("error", *(ERROR_HEADS[k] for k in keys)), cells, note=note))
 
 
 def make_floor_row(c: Json) -> tuple[str, Json]:
@@ -127,12 +127,12 @@ def tabulate_terms(terms: Sequence[Json]) -> Table:
     return tabulate(terms, columns, brief=5)
 
 
-def _off_sheet(found: Sequence[Json]) -> Sections:
+def _describe_off_sheet(parameters: Sequence[Json]) -> Sections:
     """Parameters that the record puts far from their test sheet."""
     lines = [
         f"{label_parameter(x)} is {number(abs(x['sigmas']))} σ off its test sheet: {numbers.plain(x['value'])} instead of"
         f" {numbers.with_unit(numbers.plain(x['sheet']), x['unit'])}"
-        for x in found
+        for x in parameters
     ]
     summary = f"{len(lines)} parameters are far from their test sheet"
     title, long = "Far from the test sheet", len(lines) > 3
@@ -160,7 +160,7 @@ def describe_comparison(
         f"{write_flights(flights)}: {numbers.fixed(c['samples'], 0)} samples at {number(c['rate_Hz'])} Hz; {write_effects(c['effects'])}.",
         *([f"Note: {c['reason']!s}."] if c["converged"] and c["reason"] else []),
     ]
-    found = [
+    sections = [
         Section(sentences=tuple(sentences), state="good" if c["adequate"] else "bad"),
         tabulate_errors([*(rows or usual), make_floor_row(c)]),
     ]
@@ -171,19 +171,20 @@ def describe_comparison(
             for b in where["time"][:1]
             if b["over_noise"] > 1.15
         ]
-        found.append(Section("Where it fails", tuple(worst), tabulate_terms(where["motion"])))
-    found += _off_sheet(c["off_sheet"])
-    return (*found, *(suggest_next(then) if judged and not c["adequate"] else ()))
+        sections.append(Section("Where it fails", tuple(worst), tabulate_terms(where["motion"])))
+    sections += _describe_off_sheet(c["off_sheet"])
+    return (*sections, *(suggest_next(then) if judged and not c["adequate"] else ()))
 
 
 def write_comparison_headline(c: Json) -> str:
     """Whether the model is adequate, with the error, the noise and the tests."""
     if not c["converged"]:
         return f"The calibration has not converged: {c['reason']!s}."
-    why = "" if c["adequate"] else "; ".join(map(str, c.get("grounds", ())))
+    grounds = "" if c["adequate"] else "; ".join(map(str, c.get("grounds", ())))
+    reason = f" ({grounds})" if grounds else ""
     return (
         f"The model is {'adequate' if c['adequate'] else 'NOT adequate'}: after calibration the error is"
-        f" {format_error(c['error']['calibrated'])} Eo, the noise floor {format_error(c['noise_floor'])} Eo{f' ({why})' if why else ''}."
+        f" {format_error(c['error']['calibrated'])} Eo, the noise floor {format_error(c['noise_floor'])} Eo{reason}."
     )
 
 
@@ -200,7 +201,7 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
     )
     rows = (("nominal", c["error"]["nominal"]), ("frozen", frozen), ("free", free))
     first, *others = describe_comparison(c, flights, then, rows, judged=False)
-    found = [Section(sentences=(*head, *first.sentences), state="good" if h["holds"] else "bad"), *others]
+    sections = [Section(sentences=(*head, *first.sentences), state="good" if h["holds"] else "bad"), *others]
     if h["suspects"]:
         single: Columns = {
             "parameter": label_parameter,
@@ -208,16 +209,16 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
             "explains": lambda x: numbers.percent(x["share"]),
         }
         title = "Single parameters whose change would explain it"
-        found.append(Section(title, table=tabulate(h["suspects"], single)))
+        sections.append(Section(title, table=tabulate(h["suspects"], single)))
     save = "" if h["holds"] or not again else f"if the instrument may have changed: {again} --save"
-    return (*found, *suggest_next(save))
+    return (*sections, *suggest_next(save))
 
 
 def write_verdict(d: Json) -> str:
     """What a diagnosis concludes, with its numbers, in one sentence or two."""
     before, after, noise = d["error"]["before"], d["error"]["after"], d["noise_floor"]
     terms, floor = d["unexplained"]["terms"], f"the noise floor is {format_error(noise)} Eo"
-    found = join_names([_name_alternatives(e, d["groups"]) for e in d["found"]])
+    claims = join_names([_name_alternatives(e, d["groups"]) for e in d["found"]])
     mostly = f", mostly at {label_term(terms[0])}" if terms else ""
     remain, left = (excess(e["rms_Eo"], noise["rms_Eo"]) for e in (before, after))
     clearly = 0.05 * noise["rms_Eo"]
@@ -229,15 +230,15 @@ def write_verdict(d: Json) -> str:
         falls = f"The error stays {format_error(before)} Eo"
     if not d["converged"] and d["verdict"] != "partly-explained":
         return f"No verdict: {d['remark']!s}."
-    said = {
+    sentences = {
         "adequate": f"Adequate: this record shows no missing effect. After calibration the error is {format_error(before)} Eo,"
         f" the noise floor {format_error(noise)} Eo.",
-        "missing-effect": f"Missing: {found}. {falls}; {floor}.",
-        "partly-explained": f"Partly explained: {found}. {falls}. Not yet explained: {rest}{mostly}.",
+        "missing-effect": f"Missing: {claims}. {falls}; {floor}.",
+        "partly-explained": f"Partly explained: {claims}. {falls}. Not yet explained: {rest}{mostly}.",
         "unexplained": f"Unexplained: {format_error(before)} Eo remain where {floor}, and no effect of the catalogue accounts for"
         f" {other}{mostly}.",
     }
-    return said[d["verdict"]]
+    return sentences[d["verdict"]]
 
 
 def _name_alternatives(effect: str, groups: Sequence[Json]) -> str:
@@ -248,12 +249,12 @@ def _name_alternatives(effect: str, groups: Sequence[Json]) -> str:
 
 def choose_values(r: Json) -> list[Json]:
     """One value of every parameter of an effect: of its combinations, or single values, the most significant one."""
-    every: dict[str, list[Json]] = {}
+    groups: dict[str, list[Json]] = {}
     for q in _list_values(r):
-        every.setdefault(str(q["name"]).rpartition(" ")[2], []).append(q)
-    chosen = [max([q for q in same if q.get("weights")] or same, key=significance) for same in every.values()]
-    clear = [q for q in chosen if significance(q) > CLEAR]
-    return sorted(clear or chosen, key=significance, reverse=True)
+        groups.setdefault(str(q["name"]).rpartition(" ")[2], []).append(q)
+    best = [max([q for q in same if q.get("weights")] or same, key=significance) for same in groups.values()]
+    clear = [q for q in best if significance(q) > CLEAR]
+    return sorted(clear or best, key=significance, reverse=True)
 
 
 def significance(p: Json) -> float:
@@ -263,8 +264,8 @@ def significance(p: Json) -> float:
 def describe_finding(r: Json) -> str:
     """An effect in one line: what, its value, the error before and after, held out."""
     values = ", ".join(write_parameter(p) for p in choose_values(r)[:3])
-    held = r.get("error_after_holdout")
-    errors = f"{write_errors(r['error_before'], r['error_after'])}, held out {format_error(held)} Eo"
+    holdout = r.get("error_after_holdout")
+    errors = f"{write_errors(r['error_before'], r['error_after'])}, held out {format_error(holdout)} Eo"
     return f"{r['effect']!s}: {values}{'; ' if values else ''}{errors}"
 
 
@@ -280,8 +281,8 @@ def _is_clear(p: Json, effect: Json) -> bool:
 def explain_patterns(values: Sequence[Json]) -> list[str]:
     """What the combinations are that appear among the values."""
     named = {str(p["name"]).rpartition(" ")[0] for p in values}
-    said = [f"{name} = {PATTERNS[name]}" for name in PATTERNS if name in named]
-    return [f"{', '.join(said)}, each accelerometer weighted by its scale factor."] if said else []
+    patterns = [f"{name} = {PATTERNS[name]}" for name in PATTERNS if name in named]
+    return [f"{', '.join(patterns)}, each accelerometer weighted by its scale factor."] if patterns else []
 
 
 def describe_values(effects: Sequence[Json], *, explained: bool = False) -> Sections:
@@ -289,8 +290,8 @@ def describe_values(effects: Sequence[Json], *, explained: bool = False) -> Sect
 
     ``explained``: their combinations have been explained.
     """
-    every = [(e, p) for e in effects for p in _list_values(e)]
-    if not every:
+    values = [(e, p) for e in effects for p in _list_values(e)]
+    if not values:
         return ()
     ordered = [(e, p) for e in effects for p in sorted(_list_values(e), key=significance, reverse=True)]
     clear = [(e, p) for e, p in ordered if _is_clear(p, e)]
@@ -300,68 +301,68 @@ def describe_values(effects: Sequence[Json], *, explained: bool = False) -> Sect
         "value": lambda x: format_value(x[1]),
     }
     note = "" if explained else " ".join(explain_patterns([p for _, p in clear]))
-    found = [Section("Values", table=tabulate(clear, columns, words=3, note=note))] if clear else []
-    if hidden := len(every) - len(clear):
+    sections = [Section("Values", table=tabulate(clear, columns, words=3, note=note))] if clear else []
+    if hidden := len(values) - len(clear):
         summary = f"also {count(hidden, 'value')} of little significance"
-        table = tabulate(every, columns, words=3)
-        found.append(Section("All values", table=table, detail=True, summary=summary))
-    return tuple(found)
+        table = tabulate(values, columns, words=3)
+        sections.append(Section("All values", table=table, detail=True, summary=summary))
+    return tuple(sections)
 
 
 def describe_diagnosis(d: Json, then: str = "") -> Sections:
     """The result of ``diagnose``; ``then`` is the command that adds what was found."""
     claimed = [r for r in d["ranking"] if r["effect"] in d["found"]]
     values = [p for e in claimed for p in _list_values(e) if _is_clear(p, e)]
-    said = (write_verdict(d), *map(describe_finding, claimed), *_remarks(d), *explain_patterns(values))
+    lines = (write_verdict(d), *map(describe_finding, claimed), *_list_remarks(d), *explain_patterns(values))
     state = {"adequate": "good", "unexplained": "bad"}.get(d["verdict"], "found")
-    first = Section(sentences=said, state=state)
+    first = Section(sentences=lines, state=state)
     rows = [("current model", d["error"]["before"])]
     if d["found"]:
         rows.append((f"with {join_names([str(e) for e in d['found']])}", d["error"]["after"]))
-    found = [first, tabulate_errors([*rows, make_floor_row(d)]), *describe_values(claimed, explained=True)]
+    sections = [first, tabulate_errors([*rows, make_floor_row(d)]), *describe_values(claimed, explained=True)]
     terms = d["unexplained"]["terms"]
     if terms and d["verdict"] in ("unexplained", "partly-explained"):
-        found.append(Section(title="Not explained", table=tabulate_terms(terms)))
-        found += _own_effect(d["unexplained"])
-    found += _evidence(d)
+        sections.append(Section(title="Not explained", table=tabulate_terms(terms)))
+        sections += _suggest_own_effect(d["unexplained"])
+    sections += _describe_evidence(d)
     if d["next_motion"]:
-        found.append(Section("Next motion", tuple(map(motion_sentence, d["next_motion"]))))
-    found += _untestable(d)
-    found += _off_sheet(d["off_sheet"])
-    return (*found, *(suggest_next(then) if d["found"] else ()))
+        sections.append(Section("Next motion", tuple(map(motion_sentence, d["next_motion"]))))
+    sections += _list_untestable(d)
+    sections += _describe_off_sheet(d["off_sheet"])
+    return (*sections, *(suggest_next(then) if d["found"] else ()))
 
 
-def _remarks(d: Json) -> list[str]:
+def _list_remarks(d: Json) -> list[str]:
     """What belongs to the verdict: its reason, groups, flights that disagree, from when on the model fails."""
     judged = d["converged"] or d["verdict"] == "partly-explained"
-    said = [f"Note: {text}." for text in d["notes"]] if judged else []
+    remarks = [f"Note: {text}." for text in d["notes"]] if judged else []
     for g in d["groups"]:
         main, *others = map(str, g["effects"])
         if others:
             term = f"; {g['name']!s} explains as much" if g["name"] else ""
-            said.append(
+            remarks.append(
                 f"This record cannot distinguish {main} from {join_names(others, 'or')}{term}: they are one finding."
             )
     for x in d.get("disagree") or ():
         unknown = [] if x["explained"] else ["something that no effect explains"]
         what = join_names([*map(str, x["found"]), *unknown]) or "no effect"
-        said.append(
+        remarks.append(
             f"Alone, {write_flights(x['flights'])} {'needs' if len(x['flights']) == 1 else 'need'} {what}."
         )
     if d["holds_until_s"] is not None:
-        said.append(
+        remarks.append(
             f"The fit fails from {number(d['holds_until_s'], 4)} s of {d['holds_until_flight']!s} on."
         )
     nearest = d["ranking"][:1] if d["verdict"] == "unexplained" and d["converged"] else ()
     for best in (r for r in nearest if r["log10_p"] is not None and r["log10_p"] < -4.0):
-        said.append(
+        remarks.append(
             f"The nearest effect of the catalogue is {best['effect']!s} (error {format_error(best['error_after'])} Eo with it), which is"
             " not claimed: probabilities compare the effects of the catalogue only, and the cause may be another one."
         )
-    return said
+    return remarks
 
 
-def _evidence(d: Json) -> Sections:
+def _describe_evidence(d: Json) -> Sections:
     if not d["ranking"]:
         return say_plainly("No effect of the catalogue could be tested on this record.")
     columns: Columns = {
@@ -385,15 +386,15 @@ def chance(p: float | None, log10_p: float | None = None) -> str:
     return "> 0.99" if p > 0.995 else "< 0.01" if p < 0.005 else f"{p:.2f}"
 
 
-def _own_effect(u: Json) -> Sections:
+def _suggest_own_effect(u: Json) -> Sections:
     if not u["expression"]:
         return ()
-    said = [
+    sentences = [
         "To make the strongest term an effect of your own, put this line into `effects` in model.toml, then add it:"
     ]
     if u.get("needs"):
-        said.append(f"The flight then needs further columns: {join_names(list(u['needs']))}.")
-    return (Section("As an effect of your own", tuple(said), code=(u["expression"],)),)
+        sentences.append(f"The flight then needs further columns: {join_names(list(u['needs']))}.")
+    return (Section("As an effect of your own", tuple(sentences), code=(u["expression"],)),)
 
 
 def motion_sentence(p: Json) -> str:
@@ -419,30 +420,30 @@ def write_promise(then: float, spread: float) -> str:
 
 def _write_size(text: str) -> str:
     """``dK1/dT = 8.4 × 10⁻⁹ 1/K`` of the JSON's ``dK1_dT = 8.39e-09 1/K``."""
-    found = re.fullmatch(r"(\S+) = ([-+.\de]+) (.*)", text)
-    if found is None:
+    match = re.fullmatch(r"(\S+) = ([-+.\de]+) (.*)", text)
+    if match is None:
         return text
-    name, value, unit = found.groups()
+    name, value, unit = match.groups()
     return f"{numbers.parameter(name)}{numbers.NO_BREAK}={numbers.NO_BREAK}{numbers.with_unit(number(float(value), 2), unit)}"
 
 
-def _untestable(d: Json) -> Sections:
+def _list_untestable(d: Json) -> Sections:
     """Effects that this record cannot test, and how large the others would have to be."""
     silent = tuple((str(n["effect"]), str(n["why"])) for n in d["not_testable"])
     sizes: dict[str, list[str]] = {}
     for s in d["detectable"]:
         sizes.setdefault(s["effect"], []).append(_write_size(str(s["three_sigma"])))
-    found = []
+    sections = []
     if silent:
         summary = f"{count(len(silent), 'effect')} of the catalogue cannot be tested on this record"
         table = Table(("effect", "why"), silent, words=2)
-        found.append(Section("Not testable", table=table, detail=True, summary=summary))
+        sections.append(Section("Not testable", table=table, detail=True, summary=summary))
     if sizes:
         rows = tuple((str(e), ", ".join(v)) for e, v in sizes.items())
         note = "Size that would be significant at three standard deviations, in the accelerometer that shows it best."
         table = Table(("effect", "detection limit (3 σ)"), rows, words=2, note=note)
-        found.append(Section("Detection limits", table=table, detail=True))
-    return tuple(found)
+        sections.append(Section("Detection limits", table=table, detail=True))
+    return tuple(sections)
 
 
 def describe_step(
@@ -480,7 +481,7 @@ def describe_addition(a: Json, effects: Sequence[str], then: str = "", use: str 
     return (
         *describe_step([a["effect"]], [], a["before"], a["after"], [a]),
         *say_plainly(f"{write_effects(effects)}."),
-        *_off_sheet(a["off_sheet"]),
+        *_describe_off_sheet(a["off_sheet"]),
         *suggest_next(use if a["after"]["adequate"] else then),
     )
 
@@ -510,6 +511,7 @@ def describe_model(name: str, effects: Sequence[str], steps: Sequence[Json]) -> 
     return (Section(sentences=(f"{name!s}; {write_effects(effects)}",), table=tabulate_history(steps)),)
 
 
-def summarize(kind: str, said: str, *errors: tuple[str, float | None]) -> str:
+def summarize(kind: str, verdict: str, *errors: tuple[str, float | None]) -> str:
     """The ``repr`` of a result: its kind, its headline, errors in Eo."""
-    return numbers.to_ascii(f"<{kind}: {said}; {', '.join(f'{name} {number(x)}' for name, x in errors)} Eo>")
+    text = ", ".join(f"{name} {number(x)}" for name, x in errors)
+    return numbers.to_ascii(f"<{kind}: {verdict}; {text} Eo>")

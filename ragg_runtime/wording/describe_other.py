@@ -51,7 +51,7 @@ UNTIMED = (
 
 def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sections:
     """The result of ``calibrate``."""
-    e, seen, model = c["error"], c["directions"], write_effects(c["effects"])
+    e, directions, model = c["error"], c["directions"], write_effects(c["effects"])
     head = (
         f"Calibrated on {write_flights(flights)}: {write_errors(e['nominal'], e['calibrated'])}, held out {format_error(e['holdout'])} Eo;"
         f" the noise floor is {format_error(c['noise_floor'])} Eo."
@@ -59,7 +59,7 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
         else "The calibration has NOT converged: do not rely on these values."
     )
     text = (
-        f"The record determines {seen['seen']} of {seen['fitted']} directions of the parameters; the rest stay at their"
+        f"The record determines {directions['seen']} of {directions['fitted']} directions of the parameters; the rest stay at their"
         f" test-sheet values. {model[:1].upper()}{model[1:]}."
     )
     rows = [("nominal", e["nominal"]), ("calibrated", e["calibrated"]), ("held out", e["holdout"])]
@@ -67,8 +67,8 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
         Section(sentences=(head, text), state="good" if c["converged"] else "bad"),
         tabulate_errors([*rows, make_floor_row(c)]),
         *tabulate_parameters(c["combinations"], c["parameters"]),
-        *(_drifting(c["drifting"]) if "drifting" in c else ()),
-        *(_certificate(c["certificate"], c["certified"]) if "certificate" in c else ()),
+        *(_describe_drift(c["drifting"]) if "drifting" in c else ()),
+        *(_describe_certificate(c["certificate"], c["certified"]) if "certificate" in c else ()),
         *suggest_next(then),
     )
 
@@ -87,10 +87,10 @@ def tabulate_parameters(
     note = " ".join((*explain_patterns(clear), *_explain_single(parameters)))
     summary = f"all {len(parameters)} parameters"
     best = tabulate(clear, value, words=2, note=note)
-    every = tabulate(parameters, value | sheet, words=2)
+    table = tabulate(parameters, value | sheet, words=2)
     return (
         Section("Best-determined combinations", table=best, detail=detail),
-        Section("Every parameter", table=every, detail=True, summary=summary),
+        Section("Every parameter", table=table, detail=True, summary=summary),
     )
 
 
@@ -100,12 +100,12 @@ def _explain_single(parameters: Sequence[Json]) -> list[str]:
     for p in parameters:
         if p["accelerometer"] is not None:
             fitted.setdefault(str(p["name"]), []).append(label_parameter(p))
-    most = max(map(len, fitted.values()), default=0)
-    single = [label for labels in fitted.values() if len(labels) < most for label in labels]
+    largest = max(map(len, fitted.values()), default=0)
+    single = [label for labels in fitted.values() if len(labels) < largest for label in labels]
     return [f"Fitted with the other accelerometers' values held: {', '.join(single)}."] if single else []
 
 
-def _drifting(d: Json) -> Sections:
+def _describe_drift(d: Json) -> Sections:
     """Which kinds of parameter drift, and how fast; those of each accelerometer in detail."""
     note = () if d["timed"] else (UNTIMED,)
     if not d["rates"]:
@@ -129,7 +129,7 @@ def _drifting(d: Json) -> Sections:
     )
 
 
-def _certificate(rows: Sequence[Json], certified: Json) -> Sections:
+def _describe_certificate(rows: Sequence[Json], certified: Json) -> Sections:
     """As planned and as reached: the channels and combinations, and in detail each parameter, those that were not reached first."""
     columns: Columns = {
         "parameter": label_parameter,
@@ -143,9 +143,9 @@ def _certificate(rows: Sequence[Json], certified: Json) -> Sections:
         f"(before {number(x['before'], 3)}, planned {number(x['planned'], 3)})."
         for name, x in certified["channels"].items()
     ]
-    both = (*certified["combinations"], *rows)
-    reached = sum(q["reached"] for q in both)
-    text.append(f"{reached} of {len(both)} values are as certain as planned (standard uncertainty).")
+    values = (*certified["combinations"], *rows)
+    reached = sum(q["reached"] for q in values)
+    text.append(f"{reached} of {len(values)} values are as certain as planned (standard uncertainty).")
     first, second = (
         tabulate(sorted(x, key=lambda q: q["reached"]), columns, words=2)
         for x in (certified["combinations"], rows)
@@ -165,7 +165,7 @@ def describe_compensation(r: Json, output: str) -> Sections:
     ]
     if not r["converged"]:
         head.append("The calibration has NOT converged: do not rely on these values.")
-    found = [
+    sections = [
         Section(sentences=(*head, *map(str, r.get("notes", ()))), state="good" if r["converged"] else "bad")
     ]
     several = len({x["output"] for x in r["flights"]}) > 1
@@ -179,14 +179,14 @@ def describe_compensation(r: Json, output: str) -> Sections:
         name = str(x["flight"]) + (f": {x['output']!s}" if several else "")
         samples, values, good = (numbers.fixed(x[k], 0) for k in ("samples", "values", "good"))
         text = f"{samples} samples: {values} with a value, {good} of them good."
-        flags = [f"{x['quality'][flag]} {said}." for flag, said in meanings if x["quality"][flag]]
+        flags = [f"{x['quality'][flag]} {meaning}." for flag, meaning in meanings if x["quality"][flag]]
         removed, folded = tabulate(x["contributions"], parts, brief=8), several or len(r["flights"]) > 1
-        found.append(Section(name, (text, *flags), _channels_table(x)))
-        found.append(Section("What was removed, rms", table=removed, detail=folded))
-    return tuple(found)
+        sections.append(Section(name, (text, *flags), _tabulate_channels(x)))
+        sections.append(Section("What was removed, rms", table=removed, detail=folded))
+    return tuple(sections)
 
 
-def _channels_table(x: Json) -> Table:
+def _tabulate_channels(x: Json) -> Table:
     density, std = x["density"], x["std"]
     columns: dict[str, Callable[[str], str]] = {
         "channel": str,
@@ -251,32 +251,32 @@ def describe_survey(s: Json, headline: str, advice: Sequence[str]) -> Sections:
     failed = [r for r in s["flights"] if "verdict" not in r]
     bad = s["counts"]["error"] or s["counts"]["unexplained"]
     state = "bad" if bad else "good" if s["counts"]["adequate"] == len(done) else "found"
-    found = [Section(sentences=(headline, *advice), state=state)]
+    sections = [Section(sentences=(headline, *advice), state=state)]
     if done:
-        found += [_surveyed(done), *_survey_notes(done)]
+        sections += [_tabulate_flights(done), *_list_notes(done)]
     if s["effects"]:
         heads = ("effect", "found", "perhaps", "testable")
         counts = tuple(tuple(str(e[k]) for k in heads) for e in s["effects"])
         note = "found: claimed; perhaps: explains as much as what is claimed; testable: the record could have shown it"
-        found.append(Section("Effects", table=Table(heads, counts, note=note)))
+        sections.append(Section("Effects", table=Table(heads, counts, note=note)))
     if s["unexplained_terms"]:
         terms: Columns = {"harmonic × motion term": label_term, "flights": lambda t: str(t["flights"])}
-        found.append(
+        sections.append(
             Section("What no effect explains", table=tabulate(s["unexplained_terms"], terms, brief=8))
         )
     if s["parameters"]:
-        found.append(_trends(s["parameters"]))
+        sections.append(_tabulate_trends(s["parameters"]))
     if failed:
         wrong: Columns = {
             "flight": lambda r: str(r["flight"]),
             "what is wrong": lambda r: " ".join(str(r["error"]["message"]).split()),
         }
         text = "The other flights are not affected."
-        found.append(Section("Flights in error", (text,), tabulate(failed, wrong, words=2)))
-    return tuple(found)
+        sections.append(Section("Flights in error", (text,), tabulate(failed, wrong, words=2)))
+    return tuple(sections)
 
 
-def _surveyed(done: Sequence[Json]) -> Section:
+def _tabulate_flights(done: Sequence[Json]) -> Section:
     """A row a flight."""
     columns: Columns = {
         "flight": lambda r: str(r["flight"]),
@@ -288,11 +288,11 @@ def _surveyed(done: Sequence[Json]) -> Section:
         "noise, Eo": lambda r: format_error(r["noise_floor"]),
         "found": lambda r: " ".join(map(str, r["found"])),
     }
-    more = f"and {len(done) - LISTED} more" if len(done) > LISTED else ""
-    return Section("Flights", table=tabulate(done[:LISTED], columns, words=2, note=more))
+    note = f"and {len(done) - LISTED} more" if len(done) > LISTED else ""
+    return Section("Flights", table=tabulate(done[:LISTED], columns, words=2, note=note))
 
 
-def _survey_notes(done: Sequence[Json]) -> Sections:
+def _list_notes(done: Sequence[Json]) -> Sections:
     """Every note once, with the flights that it is about."""
     about = group_notes((str(r["flight"]), str(note)) for r in done for note in r["notes"])
     table = Table(("note", "flights"), tuple((n, write_flights(x)) for n, x in about.items()), words=2)
@@ -300,7 +300,7 @@ def _survey_notes(done: Sequence[Json]) -> Sections:
     return (Section("Notes", table=table, detail=True, summary=summary),) if about else ()
 
 
-def _trends(parameters: Sequence[Json]) -> Section:
+def _tabulate_trends(parameters: Sequence[Json]) -> Section:
     def mean(t: Json) -> str:
         std = min(s for s in t["stds"] if s is not None)
         return numbers.with_unit(numbers.rounded(t["mean"], std), t["unit"])
@@ -334,34 +334,35 @@ def describe_next_motion(r: Json, output: str) -> Sections:
         return say_plainly(
             head, "No effects remain to be separated: a multisine about all axes, which excites every effect."
         )
-    said = [
+    sentences = [
         f"if it is {x['effect']!s}: {x['rival']!s} is ruled out ({number(x['now'], 2)} → {write_promise(x['then'], x['spread'])} σ)"
         if x["then"] > 3.0
         else f"if it is {x['effect']!s}: no motion within the limits rules out {x['rival']!s}, which acts alike"
         f" ({number(x['now'], 2)} → {number(x['then'])} σ)"
         for x in r["separations"]
     ]
-    return say_plainly(head, *said)
+    return say_plainly(head, *sentences)
 
 
 def describe_flight_file(f: Json) -> Sections:
     """What a flight file holds, and what is assumed: the result of ``info``."""
     head = f"{f['path']!s}: {f['format']}, {numbers.fixed(f['bytes'] / 1e6, 2)} MB, {count(len(f['records']), 'record')}."
-    found = [Section(sentences=(head,), state="bad" if any(r["refused"] for r in f["records"]) else "good")]
+    state = "bad" if any(r["refused"] for r in f["records"]) else "good"
+    sections = [Section(sentences=(head,), state=state)]
     for r in f["records"]:
-        found += _record_sections(r)
-    return tuple(found)
+        sections += _record_sections(r)
+    return tuple(sections)
 
 
 def _record_sections(r: Json) -> list[Section]:
-    said = [f"{numbers.fixed(r['rows'], 0)} rows"]
+    facts = [f"{numbers.fixed(r['rows'], 0)} rows"]
     if r["rate_Hz"] is not None:
-        said.append(
+        facts.append(
             f"{number(r['rate_Hz'], 5)} Hz, {numbers.seconds(r['duration_s'])} from {number(r['start_s'], 4)} s on"
         )
     if r["origin"]:
-        said.append(f"time 0 is {r['origin']}")
-    text = [f"{'; '.join(said)}."]
+        facts.append(f"time 0 is {r['origin']}")
+    text = [f"{'; '.join(facts)}."]
     if r["gap_count"]:
         longest = max(r["gaps"], key=lambda g: g["samples"])
         text.append(
@@ -384,7 +385,7 @@ def _record_sections(r: Json) -> list[Section]:
         "to, s": lambda g: number(g["to_s"], 6),
         "samples": lambda g: str(g["samples"]),
     }
-    found = [Section(str(r["name"]), tuple(text), tabulate(r["columns"], columns, words=2))]
+    sections = [Section(str(r["name"]), tuple(text), tabulate(r["columns"], columns, words=2))]
     if r["gaps"]:
-        found.append(Section("Gaps", table=tabulate(r["gaps"], gaps, words=0), detail=True))
-    return found
+        sections.append(Section("Gaps", table=tabulate(r["gaps"], gaps, words=0), detail=True))
+    return sections

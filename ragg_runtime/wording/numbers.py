@@ -65,8 +65,8 @@ def fixed(x: float, decimals: int) -> str:
     """Fixed-point text with groups of three before the point from 10 000 on."""
     text = f"{abs(x):.{decimals}f}"
     if abs(x) >= 1e4:
-        whole, _, rest = text.partition(".")
-        text = f"{int(whole):,}".replace(",", THIN) + (f".{rest}" if rest else "")
+        integer, _, rest = text.partition(".")
+        text = f"{int(integer):,}".replace(",", THIN) + (f".{rest}" if rest else "")
     return (MINUS if x < 0 and float(text.replace(THIN, "")) != 0.0 else "") + text
 
 
@@ -144,9 +144,9 @@ _ASCII = str.maketrans(
 def to_ascii(text: str) -> str:
     """The same text as a terminal shows it: ``(5.98 ± 0.05) × 10⁻⁸`` is ``(5.98 +- 0.05)e-8``."""
 
-    def exponent(found: re.Match[str]) -> str:
-        digits = "".join("-" if c == "⁻" else str("⁰¹²³⁴⁵⁶⁷⁸⁹".index(c)) for c in found[2])
-        return f"{'' if found[1] else '1'}e{digits}"
+    def exponent(match: re.Match[str]) -> str:
+        digits = "".join("-" if c == "⁻" else str("⁰¹²³⁴⁵⁶⁷⁸⁹".index(c)) for c in match[2])
+        return f"{'' if match[1] else '1'}e{digits}"
 
     text = re.sub(rf"({THIN}×{THIN})?(?<![\d.])10([⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)", exponent, text)
     text = re.sub(rf"(?<=\d){THIN}(?=\d{{3}}(?!\d))", "", text)
@@ -167,23 +167,23 @@ def unit(text: str) -> str:
 
 def unit_of_term(text: str) -> str:
     """A unit such as ``V/(m/s^2*m/s^2*K)`` with equal factors gathered: V/((m/s²)²·K)."""
-    found = re.fullmatch(r"V/\((.*)\)", text)
-    if found is None:
+    match = re.fullmatch(r"V/\((.*)\)", text)
+    if match is None:
         return unit(text)
-    factors = found[1].split("*")
+    factors = match[1].split("*")
     parts = []
     for f in dict.fromkeys(factors):
-        count, shown = factors.count(f), unit(f)
-        if "/" in shown and len(factors) > 1:
-            shown = f"({shown})"
-        parts.append(shown + (str(count).translate(_SUPERSCRIPTS) if count > 1 else ""))
+        count, symbol = factors.count(f), unit(f)
+        if "/" in symbol and len(factors) > 1:
+            symbol = f"({symbol})"
+        parts.append(symbol + (str(count).translate(_SUPERSCRIPTS) if count > 1 else ""))
     text = "·".join(parts)
     return f"V/{text}" if len(parts) == 1 and ("/" not in parts[0] or parts[0][0] == "(") else f"V/({text})"
 
 
 def with_unit(text: str, unit_: str) -> str:
-    shown = unit(unit_)
-    return f"{text}{THIN}{shown}" if shown else text
+    symbol = unit(unit_)
+    return f"{text}{THIN}{symbol}" if symbol else text
 
 
 def harmonic(name: str) -> str:
@@ -199,33 +199,33 @@ def product(name: str) -> str:
     factors = clean(name).split("*")
     powers = [(c, factors.count(c)) for c in dict.fromkeys(factors)]
     return " · ".join(
-        _channel(series(c)) + ("" if n == 1 else str(n).translate(_SUPERSCRIPTS)) for c, n in powers
+        _write_channel(series(c)) + ("" if n == 1 else str(n).translate(_SUPERSCRIPTS)) for c, n in powers
     )
 
 
-def _channel(s: Series) -> str:
+def _write_channel(s: Series) -> str:
     match s:
         case Product(factors):
-            return f"({' · '.join(_channel(x) for x in factors)})"
+            return f"({' · '.join(_write_channel(x) for x in factors)})"
         case Relaxation(of, seconds):
-            return f"{_channel(of)} relaxing in {seconds}{THIN}s"
+            return f"{_write_channel(of)} relaxing in {seconds}{THIN}s"
         case Function(name, of):
-            inner = _channel(of)
+            inner = _write_channel(of)
             return {"abs": f"|{inner}|", "sign": f"sign({inner})", "square": f"{inner}²"}[name]
         case Derivative(of, order):
-            return _differentiated(of.name, order)
+            return _write_derivative(of.name, order)
         case ChannelName(name):
-            return _differentiated(name, 0)
+            return _write_derivative(name, 0)
 
 
-def _differentiated(name: str, order: int) -> str:
+def _write_derivative(name: str, order: int) -> str:
     """A derivative of a channel by time; the angular acceleration is itself one of the angular rate."""
-    found = _MOTION.fullmatch(name)
-    if found is None:
+    match = _MOTION.fullmatch(name)
+    if match is None:
         text = name
     else:
-        text = f"{'ω' if found[1].startswith('omega') else found[1]}_{found[2]}"
-        order += found[1] == "omegadot"
+        text = f"{'ω' if match[1].startswith('omega') else match[1]}_{match[2]}"
+        order += match[1] == "omegadot"
     return text if not order else f"d{text}/dt" if order == 1 else f"d²{text}/dt²"
 
 

@@ -55,9 +55,9 @@ class Table:
     note: str = ""
 
 
-def tabulate(items: Iterable[T], columns: Mapping[str, Callable[[T], str]], **more: Any) -> Table:
+def tabulate(items: Iterable[T], columns: Mapping[str, Callable[[T], str]], **options: Any) -> Table:
     """A table with a row for each item: the head of every column and what makes its cell."""
-    return Table(tuple(columns), tuple(tuple(f(x) for f in columns.values()) for x in items), **more)
+    return Table(tuple(columns), tuple(tuple(f(x) for f in columns.values()) for x in items), **options)
 
 
 @dataclass(frozen=True)

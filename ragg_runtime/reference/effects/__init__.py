@@ -156,13 +156,13 @@ def resolve(effects: EffectValues | None, count: int = 4) -> Injected:
     For each effect, all of its parameters: (count,) arrays per accelerometer, () arrays shared.
     """
     resolved: dict[str, Values] = {}
-    for effect, given in (effects or {}).items():
+    for effect, values in (effects or {}).items():
         check_keys([effect], CATALOGUE, "effects of the simulator")
-        known = CATALOGUE[effect]
-        check_keys(given, known, f"effect {effect}")
+        parameters = CATALOGUE[effect]
+        check_keys(values, parameters, f"effect {effect}")
         resolved[effect] = {
-            name: _values(effect, name, parameter, given.get(name, parameter.neutral), count)
-            for name, parameter in known.items()
+            name: _check_values(effect, name, parameter, values.get(name, parameter.neutral), count)
+            for name, parameter in parameters.items()
         }
     return resolved
 
@@ -195,19 +195,19 @@ _CHANNELS: Mapping[str, tuple[str, ...]] = {
 }
 
 
-def _values(
-    effect: str, name: str, parameter: InjectedParameter, given: ArrayLike, count: int
+def _check_values(
+    effect: str, name: str, parameter: InjectedParameter, raw: ArrayLike, count: int
 ) -> NDArray[np.float64]:
     try:
-        value = np.asarray(given, dtype=np.float64)
+        value = np.asarray(raw, dtype=np.float64)
         value = np.broadcast_to(value, (count,)) if parameter.per_accelerometer else value.reshape(())
     except (TypeError, ValueError):
         value = np.array(np.nan)
     if np.any(np.isnan(value)):
-        each = f"{'four' if count == 4 else count} numbers, or one for all,"
+        numbers = f"{'four' if count == 4 else count} numbers, or one for all,"
         raise UserError(
             f"wrong value for {name} of the effect {effect!r}",
-            found=given,
-            expected=f"{each if parameter.per_accelerometer else 'one number'} in {parameter.unit}",
+            found=raw,
+            expected=f"{numbers if parameter.per_accelerometer else 'one number'} in {parameter.unit}",
         )
     return value

@@ -21,20 +21,20 @@ def attraction(r: Array, auxiliaries: Mapping[str, Array], effects: Injected) ->
     if masses := effects.get("self-gradient"):
         for axis in ("roll", "pitch"):
             if axis in auxiliaries:
-                total = total + contract(_five(masses, f"G_{{}}_{axis}"), r) * np.sin(auxiliaries[axis])
+                total = total + contract(_complete(masses, f"G_{{}}_{axis}"), r) * np.sin(auxiliaries[axis])
     if standing := effects.get("gradient-offset"):
-        total = total + contract(_five(standing), r)
+        total = total + contract(_complete(standing), r)
     if tanks := effects.get("fuel-gradient"):
-        total = total + contract(_five(tanks), r) * auxiliaries["fuel_mass"]
+        total = total + contract(_complete(tanks), r) * auxiliaries["fuel_mass"]
     if carrier := effects.get("self-gradient-yaw"):
         d, xy, xz, yz = (carrier[f"G_{k}"] for k in ("d", "xy", "xz", "yz"))
         level = np.array([d, xy, xz, -d, yz, 0.0])
-        total = total + _turned(level, r, [auxiliaries["yaw"]]) - contract(level, r)
+        total = total + _turn_attraction(level, r, [auxiliaries["yaw"]]) - contract(level, r)
     if rigid := effects.get("carrier-gradient"):
-        level = _five(rigid)
-        full = level[:, None] + _five(rigid, "F_{}")[:, None] * auxiliaries.get("fuel_mass", 0.0)
+        level = _complete(rigid)
+        full = level[:, None] + _complete(rigid, "F_{}")[:, None] * auxiliaries.get("fuel_mass", 0.0)
         attitude = [auxiliaries[n] for n in ("yaw", "pitch", "roll")]
-        total = total + _turned(full, r, attitude) - contract(level, r)
+        total = total + _turn_attraction(full, r, attitude) - contract(level, r)
     for body in ("near-sphere", "near-cuboid"):
         if body in effects:
             total = total + _of_body(effects[body], r, auxiliaries)
@@ -61,17 +61,17 @@ def _of_body(body: Values, r: Array, auxiliaries: Mapping[str, Array]) -> Array:
     return total
 
 
-def _turned(tensor: Array, r: Array, attitude: Sequence[Array]) -> Array:
+def _turn_attraction(tensor: Array, r: Array, attitude: Sequence[Array]) -> Array:
     """Attraction (3, N) m/s^2 of masses that turn with the carrier: r is looked at from there, and the answer turned back.
 
     ``attitude``: angles (N,) rad about z, y and x, or the first of them.
     """
     turns = list(zip(_PLANES, attitude, strict=False))
-    seen = np.array(r)
+    position = np.array(r)
     for (a, b), angle in turns:
         c, s = np.cos(angle), np.sin(angle)
-        seen[a], seen[b] = c * seen[a] + s * seen[b], c * seen[b] - s * seen[a]
-    pulled = contract(tensor, seen)
+        position[a], position[b] = c * position[a] + s * position[b], c * position[b] - s * position[a]
+    pulled = contract(tensor, position)
     for (a, b), angle in reversed(turns):
         c, s = np.cos(angle), np.sin(angle)
         pulled[a], pulled[b] = c * pulled[a] - s * pulled[b], c * pulled[b] + s * pulled[a]
@@ -82,7 +82,7 @@ _PLANES = ((0, 1), (2, 0), (1, 2))
 """Axes from which to which a turn about z, y and x goes."""
 
 
-def _five(values: Values, name: str = "G_{}") -> Array:
+def _complete(values: Values, name: str = "G_{}") -> Array:
     """A gradient's six components of its five independent ones."""
     xx, xy, xz, yy, yz = (values[name.format(c)] for c in ("xx", "xy", "xz", "yy", "yz"))
     return np.array([xx, xy, xz, yy, yz, -(xx + yy)])
@@ -109,13 +109,13 @@ def _matrix(of: Mapping[str, float]) -> list[list[float]]:
 
 def gravity_tensor(near: Values, rank: int) -> Array:
     """The symmetric, traceless tensor of second or third derivatives of a_g, (3, 3, 3) 1/(m s^2) or (3, 3, 3, 3) 1/(m^2 s^2)."""
-    found = {n.removeprefix("T_"): float(x) for n, x in near.items() if len(n) == rank + 2}
-    for few in itertools.combinations_with_replacement("xyz", rank - 2):  # Laplace; z alone comes last
-        of_x, of_y = ("".join(sorted((*few, k, k))) for k in "xy")
-        found["".join(few) + "zz"] = -(found[of_x] + found[of_y])
+    entries = {n.removeprefix("T_"): float(x) for n, x in near.items() if len(n) == rank + 2}
+    for axes in itertools.combinations_with_replacement("xyz", rank - 2):  # Laplace; z alone comes last
+        of_x, of_y = ("".join(sorted((*axes, k, k))) for k in "xy")
+        entries["".join(axes) + "zz"] = -(entries[of_x] + entries[of_y])
     tensor = np.empty((3,) * rank)
     for index in itertools.product(range(3), repeat=rank):
-        tensor[index] = found["".join("xyz"[k] for k in sorted(index))]
+        tensor[index] = entries["".join("xyz"[k] for k in sorted(index))]
     return tensor
 
 

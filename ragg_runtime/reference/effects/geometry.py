@@ -67,13 +67,13 @@ def lean(effects: Injected, effect: str, name: str) -> Array | None:
 
 def spin_share(kinematics: Kinematics, effects: Injected) -> float:
     """Share of the disc's own rotation that the accelerometers sense: all of it in full kinematics."""
-    given = effects.get("disc-spin")
-    if kinematics == "full" and given is not None:
+    effect = effects.get("disc-spin")
+    if kinematics == "full" and effect is not None:
         raise UserError(
             "the effect 'disc-spin' is in an instrument of full kinematics already",
             remedy='leave it out, or simulate with kinematics = "platform"',
         )
-    return 1.0 if kinematics == "full" else 0.0 if given is None else float(given["share"])
+    return 1.0 if kinematics == "full" else 0.0 if effect is None else float(effect["share"])
 
 
 def bends(j: int, effects: Injected) -> bool:
@@ -122,9 +122,9 @@ def misalignment(
     if flow := effects.get("mount-creep"):
         e = {name: value[j] for name, value in flow.items() if name != "tau"}
         x, z = (auxiliaries[memory.friction("mount-creep", j, n)] for n in (0, 2))
-        left = auxiliaries[memory.former("mount-creep")]
-        about_y = about_y + e["e_yx"] * x + e["e_yz"] * z + e["e_y0"] * left
-        about_z = about_z + e["e_zx"] * x + e["e_z0"] * left
+        former = auxiliaries[memory.former("mount-creep")]
+        about_y = about_y + e["e_yx"] * x + e["e_yz"] * z + e["e_y0"] * former
+        about_z = about_z + e["e_zx"] * x + e["e_z0"] * former
     if compliance := effects.get("mount-compliance"):
         c = {name: value[j] for name, value in compliance.items()}
         about_y = about_y + c["c_yx"] * f[0] + c["c_yy"] * f[1] + c["c_yz"] * f[2]

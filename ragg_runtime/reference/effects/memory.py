@@ -39,23 +39,23 @@ def recoil(values: Values, x: Signal, time: Array, delay: float = 0.0) -> tuple[
     """
     (d, b), share = oscillator(values), float(values["share"])
     fine = time[0] + np.arange(int(np.ceil((time[-1] - time[0]) * FINE)) + 2) / FINE
-    y = _integrated(x.rate(fine, delay), [share * b, 0.0], [(1 - share) * b, d, 1.0])
+    y = _integrate(x.rate(fine, delay), [share * b, 0.0], [(1 - share) * b, d, 1.0])
     slope = np.gradient(y, 1 / FINE)
     return make_interp_spline(fine, y, k=3)(time), make_interp_spline(fine, slope, k=3)(time)
 
 
-def swallowed(values: Values, voltages: Callable[[Array], Array], time: Array) -> Array:
+def find_resonance_loss(values: Values, voltages: Callable[[Array], Array], time: Array) -> Array:
     """What a resonance takes from voltages (n, N) of accelerometers, V, with (u s + v s^2)/(1 + d s + b s^2) for each."""
     if len(time) < 2 or not (np.any(values["u"]) or np.any(values["v"])):
         return np.zeros((len(values["u"]), len(time)))
     d, b = oscillator(values)
-    known = np.linspace(time[0], time[-1], OVER * (len(time) - 1) + 1)
-    splines = make_interp_spline(known, voltages(known), k=5, axis=1)
-    few = int(np.ceil(FINE * (time[1] - time[0])))
-    fine = np.linspace(time[0], time[-1], few * (len(time) - 1) + 1)
+    instants = np.linspace(time[0], time[-1], OVER * (len(time) - 1) + 1)
+    splines = make_interp_spline(instants, voltages(instants), k=5, axis=1)
+    factor = int(np.ceil(FINE * (time[1] - time[0])))
+    fine = np.linspace(time[0], time[-1], factor * (len(time) - 1) + 1)
     rate = 1 / (fine[1] - fine[0])
     parts = zip(splines(fine), values["u"], values["v"], strict=True)
-    return np.stack([_integrated(x, [v, u, 0.0], [b, d, 1.0], rate)[::few] for x, u, v in parts])
+    return np.stack([_integrate(x, [v, u, 0.0], [b, d, 1.0], rate)[::factor] for x, u, v in parts])
 
 
 SLIPPING = ("bias-hysteresis", "mount-hysteresis")
@@ -82,7 +82,7 @@ def heat(j: int) -> str:
     return f"heat {j}"
 
 
-def remembered(
+def list_memories(
     effects: Injected,
     forces: Callable[[Array], Array],
     currents: Callable[[Array], Array],
@@ -93,22 +93,22 @@ def remembered(
     currents (n, N) for a unit scale factor, m/s^2; and of the auxiliary channels.
     """
     fine = np.linspace(time[0], time[-1], OVER * (len(time) - 1) + 1)
-    found: dict[str, Array] = {}
+    series: dict[str, Array] = {}
     for effect in (e for e in (*SLIPPING, *CREEPING) if e in effects):
         for j, f in enumerate(forces(fine)):
             for n, x in enumerate(f):
                 slips = effect in SLIPPING
-                found[friction(effect, j, n)] = (
-                    _held(x, float(effects[effect]["w"])) if slips else _late(x, _tau(effects, effect), fine)
+                series[friction(effect, j, n)] = (
+                    _slip(x, float(effects[effect]["w"])) if slips else _relax(x, _tau(effects, effect), fine)
                 )
     if "inner-temperature" in effects:
         for j, i in enumerate(currents(fine)):
-            found[heat(j)] = _late(i**2, _tau(effects, "inner-temperature"), fine)
+            series[heat(j)] = _relax(i**2, _tau(effects, "inner-temperature"), fine)
     for effect in (e for e in (*CREEPING, "inner-temperature") if e in effects):
-        found[former(effect)] = np.exp((fine[0] - fine) / _tau(effects, effect))
+        series[former(effect)] = np.exp((fine[0] - fine) / _tau(effects, effect))
     if "thermal-hysteresis" in effects:
-        found[CYCLE] = _held(auxiliaries["temperature"](fine), float(effects["thermal-hysteresis"]["w"]))
-    return {name: partial(_at, fine, x) for name, x in found.items()}
+        series[CYCLE] = _slip(auxiliaries["temperature"](fine), float(effects["thermal-hysteresis"]["w"]))
+    return {name: partial(_at, fine, x) for name, x in series.items()}
 
 
 def _at(fine: Array, x: Array, time: Array) -> Array:
@@ -122,24 +122,24 @@ def _tau(effects: Injected, effect: str) -> float:
     return tau
 
 
-def _late(x: Array, tau: float, time: Array) -> Array:
+def _relax(x: Array, tau: float, time: Array) -> Array:
     """y' = (x - y)/tau at (N,) s, x having been as on the average before."""
     before = np.concatenate([[np.mean(x)], x])
-    return _integrated(before, [1.0], [tau, 1.0], 1 / (time[1] - time[0]))[1:]
+    return _integrate(before, [1.0], [tau, 1.0], 1 / (time[1] - time[0]))[1:]
 
 
-def _held(force: Array, w: float) -> Array:
+def _slip(force: Array, w: float) -> Array:
     """Friction (N,), over its greatest size: a spring that slips where the force has moved it by w."""
     if not w > 0:
         raise UserError("w of a hysteresis must be positive", found=f"{w:g}")
-    found, now = np.zeros_like(force), 0.0
+    deflection, state = np.zeros_like(force), 0.0
     for n, step in enumerate(np.diff(force), 1):
-        now = min(max(now + step / w, -1.0), 1.0)
-        found[n] = now
-    return found
+        state = min(max(state + step / w, -1.0), 1.0)
+        deflection[n] = state
+    return deflection
 
 
-def _integrated(
+def _integrate(
     x: Array, numerator: Sequence[float], denominator: Sequence[float], rate: float = FINE
 ) -> Array:
     """A series behind a rational response of s, in falling powers, from the state on in which x has always been as at first."""

@@ -26,8 +26,8 @@ def record_motion(
     delay = float(effects["time-offset"]["delta_t"]) if "time-offset" in effects else 0.0
     if drift := effects.get("clock-drift"):
         time = time - drift["epsilon"] * time
-    there = _carry_to_sensor(motion, time, delay, effects)
-    turned = _sense_rotation(motion, time, delay, there, effects)
+    at_sensor = _carry_to_sensor(motion, time, delay, effects)
+    turned = _sense_rotation(motion, time, delay, at_sensor, effects)
     return _clip(replace(turned, a=_sense_force(turned.a, effects, temperature)), effects)
 
 
@@ -59,10 +59,10 @@ def _carry_to_sensor(motion: MotionSignals, time: Array, delay: float, effects: 
 
 
 def _sense_rotation(
-    motion: MotionSignals, time: Array, delay: float, there: MotionState, effects: Injected
+    motion: MotionSignals, time: Array, delay: float, at_sensor: MotionState, effects: Injected
 ) -> MotionState:
     """The same by a sensor that is turned, and by its gyroscopes."""
-    a, omega, omegadot = there.a, there.omega, there.omegadot
+    a, omega, omegadot = at_sensor.a, at_sensor.omega, at_sensor.omegadot
     if turned := effects.get("imu-misalignment"):
         # Components along axes turned by e: the inverse rotation of the vector.
         to_sensor = by_vector([turned["e_x"], turned["e_y"], turned["e_z"]]).T
@@ -71,7 +71,7 @@ def _sense_rotation(
         factor = 1 + _vector(scale, "s")
         omega, omegadot = factor * omega, factor * omegadot
     if leaning := effects.get("gyro-misalignment"):
-        axes = _leaning(leaning)
+        axes = _make_sensor_axes(leaning)
         omega, omegadot = axes @ omega, axes @ omegadot
     if force := effects.get("gyro-g-sensitivity"):
         D = np.array([[force[f"d_{i}{k}"] for k in "xyz"] for i in "xyz"])
@@ -85,7 +85,7 @@ def _sense_rotation(
 def _sense_force(a: Array, effects: Injected, temperature: Array | float) -> Array:
     """(3, N): the specific force (3, N) by its accelerometers."""
     if skew := effects.get("imu-acceleration-misalignment"):
-        a = _leaning(skew) @ a
+        a = _make_sensor_axes(skew) @ a
     if curved := effects.get("imu-acceleration-quadratic"):
         bent = [2 * x / (1 + np.sqrt(1 - 4 * curved[f"q_{k}"] * x)) for k, x in zip("xy", a, strict=False)]
         a = np.stack([*bent, a[2]])
@@ -117,7 +117,7 @@ def _clip(sensed: MotionState, effects: Injected) -> MotionState:
     return MotionState(a, omega, np.where(np.abs(sensed.omega) > omega_max, 0.0, sensed.omegadot))
 
 
-def _leaning(skew: Values) -> Array:
+def _make_sensor_axes(skew: Values) -> Array:
     """(3, 3): what axes that lean report of a vector."""
     return np.array([[1.0 if i == k else float(skew[f"m_{i}{k}"]) for k in "xyz"] for i in "xyz"])
 
