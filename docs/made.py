@@ -63,10 +63,10 @@ def detection_limits() -> dict[str, dict[str, str]]:
     from ragg_runtime.identification.selection import make_problem
     from ragg_runtime.model.model import load_packaged
     from ragg_runtime.reference.scenario import scenario
-    from ragg_runtime.reference.simulate import further
+    from ragg_runtime.reference.simulate import draw_rare
 
     s = scenario(1, duration=600.0, rate=8.0)
-    s = replace(s, auxiliaries={**s.auxiliaries, **further(np.random.default_rng(1))})
+    s = replace(s, auxiliaries={**s.auxiliaries, **draw_rare(np.random.default_rng(1))})
     f = fit(load_packaged(), s.sheet, observe_flights([s.simulate().flight()], s.sheet))
     found: dict[str, dict[str, str]] = {}
     for x in list_detectable(f, make_problem(f)):

@@ -22,8 +22,8 @@ from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues, channels_needed, resolve
 from ragg_runtime.reference.geometry import Rotations
 from ragg_runtime.reference.motion import RecordedSignal, Turning
-from ragg_runtime.reference.scenario import draw_gradient, draw_motion, perturbed
-from ragg_runtime.reference.simulate import eotvos_noise, further, plausible
+from ragg_runtime.reference.scenario import draw_gradient, draw_motion, perturb
+from ragg_runtime.reference.simulate import draw_rare, draw_usual, eotvos_noise
 from ragg_runtime.workspace import Loaded
 
 Array = NDArray[np.float64]
@@ -99,7 +99,7 @@ def simulate_flight(
     try:
         with np.errstate(over="ignore", invalid="ignore"):
             s = reference.simulate(
-                perturbed(instrument, np.random.default_rng([instrument_seed, 10]), sheet_error),
+                perturb(instrument, np.random.default_rng([instrument_seed, 10]), sheet_error),
                 flown,
                 duration,
                 rate,
@@ -137,8 +137,8 @@ def _collect_auxiliaries(
 ) -> dict[str, Auxiliary]:
     """What every carrier records, and what the effects ask for beyond that; as ``record`` has it, from ``start``, s, on."""
     needed = {c for e, values in resolve(effects, count).items() for c in channels_needed(e, values)}
-    rare = further(np.random.default_rng([seed, 14]))
-    usual = plausible(np.random.default_rng([seed, 12]))
+    rare = draw_rare(np.random.default_rng([seed, 14]))
+    usual = draw_usual(np.random.default_rng([seed, 12]))
     channels: dict[str, Auxiliary] = {**usual, **{name: rare[name] for name in rare if name in needed}}
     if record is not None:
         time = record.time - record.time[0] + start

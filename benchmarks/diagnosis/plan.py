@@ -23,11 +23,11 @@ from ragg_runtime.reference.scenario import (
     Scenario,
     draw_gradient,
     draw_motion,
-    perturbed,
+    perturb,
     table_v,
     trimmed,
 )
-from ragg_runtime.reference.simulate import eotvos_noise, further, plausible
+from ragg_runtime.reference.simulate import draw_rare, draw_usual, eotvos_noise
 
 Array = NDArray[np.float64]
 
@@ -160,7 +160,7 @@ def world(s: Spec) -> World:
     if options.get("recorded") or rng.random() < 0.1:
         motion = _recorded(rng, duration)
     gravity = draw_gradient(rng, 20e-9 if rng.random() < 0.5 else 0.0)
-    auxiliaries = {**plausible(rng), **further(rng)}
+    auxiliaries = {**draw_usual(rng), **draw_rare(rng)}
     if s.catalogue is not None:
         del auxiliaries["balance_current"], auxiliaries["second_order_current"]
     start = options.get("start", 0.0)
@@ -223,7 +223,7 @@ def _paper(s: Spec, rng: np.random.Generator) -> tuple[Instrument, Instrument, I
     """Sheet, true instrument, the same for a sheet, and a factor on the noise: of the paper's layout."""
     sheet = trimmed() if rng.random() < 0.5 else table_v()
     if s.kind != "off-sheet" or s.index % 2:
-        true = perturbed(sheet, rng, 10.0 if s.kind == "off-sheet" else 1.0)
+        true = perturb(sheet, rng, 10.0 if s.kind == "off-sheet" else 1.0)
         return sheet, true, true, 1.0
     sigma = {
         n: x * 10 ** rng.uniform(-0.5, 0.2) * (np.abs(sheet.accelerometers[n]) if n == "K1" else np.ones(4))

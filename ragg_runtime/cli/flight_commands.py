@@ -62,15 +62,15 @@ def compare(
     odd = _calibration_notes(m) if frozen else []
     records = read(m, flights, mapping)
     names = [x.name for x in records]
-    then, again = (next_command(v, model_dir, records, mapping) for v in ("diagnose", "calibrate"))
+    command, again = (next_command(v, model_dir, records, mapping) for v in ("diagnose", "calibrate"))
     with working("comparing" if frozen else "calibrating and comparing", "compare", records):
         saved = api.compare_frozen(m, records) if frozen else None
         c = api.compare(m, records) if saved is None else saved.comparison
     result = c.as_json() if saved is None else saved.as_json()
     if saved is None:
-        sections = describe.describe_comparison(result, names, then)
+        sections = describe.describe_comparison(result, names, command)
     else:
-        sections = describe.describe_held(result, names, then, again)
+        sections = describe.describe_held(result, names, command, again)
     title = f"{m.name}, frozen, and {', '.join(names)}" if frozen else ""
     source = source_of(m, records, further=odd, title=title)
     conclude(result, sections, source, lambda: pages.write_comparison(c, source, saved))
@@ -97,8 +97,8 @@ def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], ma
     with working("calibrating, then testing every effect of the catalogue", "diagnose", records):
         d = api.diagnose(m, records, allowed)
     result = d.as_json()
-    then = next_command("add", model_dir, records, mapping, d.found[0]) if d.found else ""
-    sections = describe.describe_diagnosis(result, then)
+    command = next_command("add", model_dir, records, mapping, d.found[0]) if d.found else ""
+    sections = describe.describe_diagnosis(result, command)
     source = source_of(m, records)
     conclude(result, sections, source, lambda: pages.write_diagnosis(d, source))
 
@@ -218,8 +218,8 @@ def calibrate(
         result |= next_flight.certify(planned, c.calibrated.fitted, result)
     drifts = drift and result["drifting"]["rates"]
     use = f"{next_command('compensate', model_dir, records)} -o compensated.csv --calibration "
-    then = f"{use}{'smoothed' if drifts else 'frozen'}" if drifts or c.saved else ""
-    sections = describe_other.describe_calibration(result, [x.name for x in records], then)
+    command = f"{use}{'smoothed' if drifts else 'frozen'}" if drifts or c.saved else ""
+    sections = describe_other.describe_calibration(result, [x.name for x in records], command)
     source = source_of(c.loaded, records)
     conclude(result, sections, source, lambda: pages.write_calibration(sections, c.calibrated.fitted, source))
 
@@ -315,8 +315,8 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
         )
     exported = api.contents(load(model_dir))
     files = api.write_export(exported, folder, form)
-    then = f" Build with: make -C {printable(str(folder))}" if form == "c" else ""
-    click.echo(f"{printable(str(folder))}: {len(files)} files.{then}")
+    hint = f" Build with: make -C {printable(str(folder))}" if form == "c" else ""
+    click.echo(f"{printable(str(folder))}: {len(files)} files.{hint}")
     click.echo("\n".join([f"Values: {exported.origin}", *exported.limits()]))
 
 

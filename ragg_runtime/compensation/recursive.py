@@ -69,24 +69,24 @@ class Online:
     ) -> None:
         self.model, self.instrument, self.tuning, self.place = model, instrument, tuning, place
         nominal, columns = make_vector(model, instrument), list_base_columns(model, instrument)
-        self.own = list_own_columns([c for c, _ in columns], instrument, place)
-        self.columns = [columns[k][0] for k in self.own]
+        self.selection = list_own_columns([c for c, _ in columns], instrument, place)
+        self.columns = [columns[k][0] for k in self.selection]
         self.p = nominal if saved is None else saved.p
         self.k_ggi = scale_factor(model, self.p, place)
-        n, index = len(self.own), [columns[k][1] for k in self.own]
+        n, index = len(self.selection), [columns[k][1] for k in self.selection]
         scale = np.array([c.scale for c in self.columns])
         self.about, to_nominal = self.p[index] / scale, (nominal[index] - self.p[index]) / scale
         unit_prior = np.diag([1.0] * n + [1.0 / UNKNOWN_EO] * 2)
         self.sheet = np.column_stack([unit_prior, [*to_nominal, 0.0, 0.0]])
         self.R = np.column_stack([unit_prior, np.zeros(n + 2)])
         if saved is not None:
-            self.R[:n, :n] = marginalise(saved.information, self.own)
+            self.R[:n, :n] = marginalise(saved.information, self.selection)
 
     def feed(self, o: Observation) -> Array:
         """Take a flight (recorded gradients are not looked at): (6, k), of every instant at which the gradient takes a step of its
         walk time, inline, cross, their standard deviations, Eo, and quality.
         """
-        step = self.tuning.walk * np.array([0.0] * len(self.own) + [STEEPER, 1.0])
+        step = self.tuning.walk * np.array([0.0] * len(self.selection) + [STEEPER, 1.0])
         before = walked = float(o.record.time[0])
         rows, flag = [], 0
         waiting: list[Array] = []
@@ -121,7 +121,7 @@ class Online:
         zero, one = np.zeros(len(r.time)), np.ones(len(r.time))
         gradient = [put_on_carriers(*x, r, self.k_ggi) for x in ((one, zero), (zero, one))]
         noise = self.tuning.noise / np.sqrt(2.0) * self.k_ggi * np.sqrt(r.rate / 2)
-        return np.asarray(np.vstack([columns[self.own], *gradient, columns[-1:]]).T / noise)
+        return np.asarray(np.vstack([columns[self.selection], *gradient, columns[-1:]]).T / noise)
 
     def _fold(self, rows: list[Array]) -> None:
         """Take rows, which are used up."""

@@ -271,9 +271,9 @@ def _read_position(
     radius = _read_number(entry, "radius", "m", where)
     if radius < 0.0:
         raise UserError("radius is out of range", where=where, found=f"{radius} m", expected="not negative")
-    if type(entry.get("sign")) is not int or abs(entry["sign"]) != 1:
-        found = repr(entry.get("sign"))
-        raise UserError("sign must be 1 or -1", where=where, found=found, expected="sign = 1")
+    sign = entry.get("sign")
+    if type(sign) is not int or abs(sign) != 1:
+        raise UserError("sign must be 1 or -1", where=where, found=repr(sign), expected="sign = 1")
     return AccelerometerPosition(
         name=_read_name(entry, "name", where),
         disc=disc,
@@ -281,7 +281,7 @@ def _read_position(
         radius=radius,
         height=_read_number(entry, "height", "m", where) if "height" in entry else 0.0,
         direction=_read_direction(entry, "direction", where, TANGENTIAL),
-        sign=entry["sign"],
+        sign=sign,
         output=outputs.setdefault(output, len(outputs)),
     )
 

@@ -153,8 +153,8 @@ def load_files(files: Mapping[str, str], layout: Layout = PAPER) -> Model:
         exec(compile(files[name], f"<derived/{name}>", "exec"), module.__dict__)
         modules[stem] = module
     c = {n.partition("/")[2]: text for n, text in files.items() if n.startswith(("c/", "fits/"))}
-    own = PAPER if layout.like_paper else layout
-    return _make_model(json.loads(files["manifest.json"]), modules, c, own)
+    manifest = json.loads(files["manifest.json"])
+    return _make_model(manifest, modules, c, PAPER if layout.like_paper else layout)
 
 
 def _make_model(

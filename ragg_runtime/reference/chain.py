@@ -16,12 +16,12 @@ from ragg_runtime.reference.geometry import (
     Mount,
     Rotations,
     Taylor,
-    carried,
-    carried_rigidly,
+    carry,
+    carry_rigidly,
     disc_attitude,
     frame_rotation,
     mount,
-    spun,
+    spin,
 )
 from ragg_runtime.reference.gravity import Gravity
 from ragg_runtime.reference.motion import MotionSignals, MotionState, Turning
@@ -209,8 +209,8 @@ class Chain:
             + k["K8"] * o * p
             + transducer.further_terms(j, measured, triad, instant.motion, auxiliaries, self.effects)
         )
-        bracket = bracket * transducer.torqued(j, triad, auxiliaries, self.effects)
-        bracket = transducer.converted(j, bracket, self.effects)
+        bracket = bracket * transducer.torque_gain(j, triad, auxiliaries, self.effects)
+        bracket = transducer.convert(j, bracket, self.effects)
         gain = transducer.gain(j, time, auxiliaries, self.effects)
         return np.asarray(k["k_VI"] * k["K1"] * gain * bracket, dtype=np.float64)
 
@@ -226,7 +226,7 @@ class Chain:
         beside = np.stack([*around[:2], length, *around[2:]])
         changing = Taylor(length, _FIRST @ beside / _STEP, _SECOND @ beside / _STEP**2)
         m = instant.motion
-        moved, rigid = (carried(arm * x, m.omega, m.omegadot) for x in (changing, length))
+        moved, rigid = (carry(arm * x, m.omega, m.omegadot) for x in (changing, length))
         further = moved - rigid
         x, y, z = (part + np.sum(further * tau.value, axis=0) for part, tau in zip(f, triad, strict=True))
         return (x, y, z), triad
@@ -252,7 +252,7 @@ class Chain:
         vectors = np.stack([fixed.arm, *fixed.triad, *([fixed.lift] if lifts else [])])
         if (lean := geometry.lean(self.effects, "spin-axis-wobble", "w")) is not None:
             vectors = vectors @ lean.T
-        turned = spun(vectors, instant.phi[disc])
+        turned = spin(vectors, instant.phi[disc])
         if (axis := geometry.lean(self.effects, "spin-axis-tilt", "alpha")) is not None:
             turned = [v.turned(axis) for v in turned]
         if (axes := self.standing[disc]) is not None:
@@ -272,13 +272,13 @@ class Chain:
         centre = self._centre(j, instant)
         r = _lifted(r, centre)
         m, position = instant.motion, r.value
-        of_platform = carried_rigidly(position, m.omega, m.omegadot)
+        of_platform = carry_rigidly(position, m.omega, m.omegadot)
         f = m.a + shake + of_platform
         if self.spin:
-            f = f + self.spin * (carried(r, m.omega, m.omegadot) - of_platform)
+            f = f + self.spin * (carry(r, m.omega, m.omegadot) - of_platform)
         if centre is not None and self.spin != 1:  # the path of the centre counts in any kinematics
-            rigid = carried_rigidly(centre.value, m.omega, m.omegadot)
-            f = f + (1 - self.spin) * (carried(centre, m.omega, m.omegadot) - rigid)
+            rigid = carry_rigidly(centre.value, m.omega, m.omegadot)
+            f = f + (1 - self.spin) * (carry(centre, m.omega, m.omegadot) - rigid)
         if self.gravity is not None:
             f = f - self.gravity.difference(instant.time, position)
         f = f - force.attraction(position, instant.auxiliaries, self.effects)

@@ -127,8 +127,8 @@ class Taylor:
     @classmethod
     def constant(cls, value: Array | float) -> Taylor:
         """What does not change."""
-        here = np.asarray(value, dtype=np.float64)
-        return cls(here, np.zeros_like(here), np.zeros_like(here))
+        value = np.asarray(value, dtype=np.float64)
+        return cls(value, np.zeros_like(value), np.zeros_like(value))
 
     def __add__(self, other: Taylor | Array | float) -> Taylor:
         if not isinstance(other, Taylor):
@@ -162,7 +162,7 @@ class Taylor:
         return Taylor(matrix @ self.value, matrix @ self.first, matrix @ self.second)
 
 
-def stacked(parts: tuple[Taylor, Taylor, Taylor]) -> Taylor:
+def stack(parts: tuple[Taylor, Taylor, Taylor]) -> Taylor:
     """Three components as one vector, (3, N)."""
     shape = np.broadcast_shapes(*(p.value.shape for p in parts))
     return Taylor(
@@ -172,25 +172,25 @@ def stacked(parts: tuple[Taylor, Taylor, Taylor]) -> Taylor:
     )
 
 
-def spun(vectors: Array, angle: Taylor) -> list[Taylor]:
+def spin(vectors: Array, angle: Taylor) -> list[Taylor]:
     """Vectors (n, 3) fixed to the disc, seen from the platform while the disc angle (N,) runs on, (3, N) each."""
     c, s = angle.cosine(), angle.sine()
     shape = angle.value.shape
     return [
-        stacked((c * x + s * -y, s * x + c * y, Taylor.constant(np.full(shape, z))))
+        stack((c * x + s * -y, s * x + c * y, Taylor.constant(np.full(shape, z))))
         for x, y, z in vectors.tolist()
     ]
 
 
-def carried(vector: Taylor, omega: Array, omegadot: Array) -> Array:
+def carry(vector: Taylor, omega: Array, omegadot: Array) -> Array:
     """Second derivative in inertial space of a vector (3, N) given by the platform's axes, along these axes: 1 + W s +
     (W W + W') s^2/2, with W u = omega x u, times the vector's own series.
     """
-    turning = carried_rigidly(vector.value, omega, omegadot)
+    turning = carry_rigidly(vector.value, omega, omegadot)
     return np.asarray(turning + 2 * np.cross(omega, vector.first, axis=0) + vector.second)
 
 
-def carried_rigidly(vector: Array, omega: Array, omegadot: Array) -> Array:
+def carry_rigidly(vector: Array, omega: Array, omegadot: Array) -> Array:
     """The same of a vector (3, N) that does not move along these axes: W W + W'."""
     twice = np.cross(omega, np.cross(omega, vector, axis=0), axis=0)
     return np.asarray(np.cross(omegadot, vector, axis=0) + twice)

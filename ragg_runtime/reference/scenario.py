@@ -18,7 +18,7 @@ from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.geometry import Rotations
 from ragg_runtime.reference.gravity import Gradient, Gravity
 from ragg_runtime.reference.motion import MotionSignals, RecordedSignal, Signal, Sinusoids
-from ragg_runtime.reference.simulate import Noise, Simulation, eotvos_noise, plausible, simulate
+from ragg_runtime.reference.simulate import Noise, Simulation, draw_usual, eotvos_noise, simulate
 
 Array = NDArray[np.float64]
 
@@ -67,7 +67,7 @@ def perfect() -> Instrument:
     return _instrument({"K1": np.full(4, 1e-2 / _G0), "k_VI": np.full(4, 1e9)})
 
 
-def perturbed(instrument: Instrument, rng: np.random.Generator, amount: float = 1.0) -> Instrument:
+def perturb(instrument: Instrument, rng: np.random.Generator, amount: float = 1.0) -> Instrument:
     """True parameters drawn about a test sheet, ``amount`` times as uncertain as such sheets are."""
     drawn = {
         name: values + amount * _SHEET[name][2] * rng.standard_normal(instrument.layout.size)
@@ -267,7 +267,7 @@ def scenario(
     sheet = trimmed() if trim == "matched" else table_v()
     return Scenario(
         sheet=sheet,
-        instrument=perturbed(sheet, np.random.default_rng([seed, _INSTRUMENT]), perturbation),
+        instrument=perturb(sheet, np.random.default_rng([seed, _INSTRUMENT]), perturbation),
         motion=draw_motion(
             np.random.default_rng([seed, _MOTION]),
             duration,
@@ -277,7 +277,7 @@ def scenario(
         ),
         gravity=draw_gradient(np.random.default_rng([seed, _GEOLOGY]), gradient_rms),
         noise=eotvos_noise(noise_density, sheet.radius, red_corner),
-        auxiliaries=plausible(np.random.default_rng([seed, _AUXILIARY])),
+        auxiliaries=draw_usual(np.random.default_rng([seed, _AUXILIARY])),
         duration=duration,
         rate=rate,
         rotations=rotations,

@@ -31,7 +31,7 @@ _EARTH_FIELD = (1.5e-5, 1.0e-5, -4.5e-5)
 """Magnetic flux density in the measurement frame, T."""
 
 
-def plausible(rng: np.random.Generator) -> Mapping[str, Auxiliary]:
+def draw_usual(rng: np.random.Generator) -> Mapping[str, Auxiliary]:
     """Temperature, roll, pitch, pressure and magnetic field of a survey line.
 
     It warms by 2 K with a time constant of 20 minutes, and swings slowly by 0.1 K.
@@ -50,7 +50,7 @@ def plausible(rng: np.random.Generator) -> Mapping[str, Auxiliary]:
     }
 
 
-def further(rng: np.random.Generator) -> Mapping[str, Auxiliary]:
+def draw_rare(rng: np.random.Generator) -> Mapping[str, Auxiliary]:
     """What only some carriers record: heading, fuel on board, levels of vibration above the recorder's bandwidth, loops' currents."""
     burning = rng.uniform(0.02, 0.06)  # kg/s
     return {
@@ -167,10 +167,10 @@ def simulate(
     recorded by an encoder; others turn steadily.
     """
     time, injected = instants(duration, rate, start), resolve(effects, instrument.layout.size)
-    given, discs = turning or {}, instrument.layout.discs
-    check_keys(given, [d.name for d in discs], "turning")
+    turning, discs = turning or {}, instrument.layout.discs
+    check_keys(turning, [d.name for d in discs], "turning")
     world = (
-        plausible(np.random.default_rng([seed, _AUXILIARY_STREAM])) if auxiliaries is None else auxiliaries
+        draw_usual(np.random.default_rng([seed, _AUXILIARY_STREAM])) if auxiliaries is None else auxiliaries
     )
     _require_channels(injected, world)
     chain = Chain(
@@ -180,7 +180,7 @@ def simulate(
         rotations=rotations,
         effects=injected,
         auxiliaries=world,
-        turning=tuple(given.get(d.name, Turning(d.spin_frequency)) for d in discs),
+        turning=tuple(turning.get(d.name, Turning(d.spin_frequency)) for d in discs),
         spin=spin_share(kinematics, injected),
         misalignment=misalignment or ("exact" if rotations == "exact" else "first-order"),
     )
@@ -192,7 +192,7 @@ def simulate(
 
     return Simulation(
         time=time,
-        channels=_channels(chain, time, record_gradient, given),
+        channels=_channels(chain, time, record_gradient, turning),
         voltages=clean + added,
         outputs=record_outputs(clean + added),
         voltages_noise_free=clean,

@@ -98,7 +98,7 @@ def _size_of(e: os.DirEntry[str]) -> int:
 
 async def receive_flight(m: Loaded, name: str, request: Request) -> Path:
     """The body of a request as a file; nothing is overwritten. UserError if it is too long or does not fit."""
-    folder, wanted = m.directory.path.resolve() / FOLDER, make_safe(name)
+    folder, safe_name = m.directory.path.resolve() / FOLDER, make_safe(name)
     announced = int(request.headers.get("content-length", "0") or 0)
     folder.mkdir(exist_ok=True)
     if folder.is_symlink():
@@ -111,17 +111,17 @@ async def receive_flight(m: Loaded, name: str, request: Request) -> Path:
             expected=f"at most {room / 1e6:.0f} MB",
             remedy="put it beside the model and choose it there",
         )
-    path = _claim(folder, wanted)
+    path = _claim(folder, safe_name)
     try:
         with path.open("wb") as target:
             async for chunk in request.stream():  # as long as was announced
                 target.write(chunk)
         if not path.stat().st_size:
-            raise UserError("the file is empty", where=wanted)
+            raise UserError("the file is empty", where=safe_name)
     except BaseException as error:
         path.unlink(missing_ok=True)
         if isinstance(error, ClientDisconnect):
-            raise UserError("the upload was interrupted; nothing was kept", where=wanted) from None
+            raise UserError("the upload was interrupted; nothing was kept", where=safe_name) from None
         raise
     return path
 

@@ -92,11 +92,11 @@ async def _send_page(text: str, session: Session, request: Request) -> Response:
 
 async def _read(make: Callable[[Session, Request], Any], session: Session, request: Request) -> Response:
     """What is asked for: bytes as they are (pictures begin with ``<``), everything else as JSON."""
-    made = await run_in_threadpool(make, session, request)
-    if isinstance(made, bytes):
-        kind = "image/svg+xml" if made.startswith(b"<") else "application/octet-stream"
-        return Response(made, media_type=kind)
-    return _send_json(made)
+    content = await run_in_threadpool(make, session, request)
+    if isinstance(content, bytes):
+        kind = "image/svg+xml" if content.startswith(b"<") else "application/octet-stream"
+        return Response(content, media_type=kind)
+    return _send_json(content)
 
 
 def _send_json(content: Any) -> Response:
@@ -229,8 +229,8 @@ async def _act(action: Callable[[Session, Body], Any], session: Session, body: B
     try:
         return await run_in_threadpool(action, session, body)
     except (LookupError, TypeError, AttributeError, ValueError, ArithmeticError) as error:
-        found = f"{type(error).__name__}: {error}"
-        raise UserError("the page does not ask in this way", found=found[:80]) from error
+        text = f"{type(error).__name__}: {error}"
+        raise UserError("the page does not ask in this way", found=text[:80]) from error
 
 
 async def _read_body(request: Request) -> dict[str, Any]:

@@ -212,8 +212,8 @@ class View:
         self.f, self.validation = self.c.fitted, self.c is not s.compared
         positions = [n for n, o in enumerate(self.f.observations) if o.flight == flight]
         if not 0 <= a.output < len(positions):
-            found = f"flight {a.flight + 1}, output {a.output + 1}"
-            raise UserError("there is no such flight", found=found)
+            place = f"flight {a.flight + 1}, output {a.output + 1}"
+            raise UserError("there is no such flight", found=place)
         self.n = positions[a.output]
         self.prepared, self.k_ggi = self.f.prepared[self.n], self.f.scales[self.n]
         self.record, self.residual = self.prepared.observation.record, self.c.residual[self.n]

@@ -108,13 +108,13 @@ def _recommend(done: Sequence[Record], s: Mapping[str, Any], model_dir: Path | s
     unexplained = s["counts"]["unexplained"] + s["counts"]["partly-explained"]
     if firm:
         files = [_quote(r) for r in done if r["flight"] in firm[0]["flights"]]
-        more = " ..." if len(files) > 3 else ""
-        lines.append(f"next: ragg add {model_dir} {firm[0]['effect']} {' '.join(files[:3])}{more}")
+        ellipsis = " ..." if len(files) > 3 else ""
+        lines.append(f"next: ragg add {model_dir} {firm[0]['effect']} {' '.join(files[:3])}{ellipsis}")
     elif not chance and done and not unexplained:
         lines.append("The model is adequate for every flight that was diagnosed.")
     if unexplained:
-        few = "1 flight shows" if unexplained == 1 else f"{unexplained} flights show"
-        lines.append(f"{few} something that no known effect explains; to see it: ragg diagnose")
+        subject = "1 flight shows" if unexplained == 1 else f"{unexplained} flights show"
+        lines.append(f"{subject} something that no known effect explains; to see it: ragg diagnose")
     if not done:
         lines.append("No flight could be diagnosed.")
     return lines

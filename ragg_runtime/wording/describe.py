@@ -147,7 +147,7 @@ def excess(error: float, noise: float) -> float:
 def describe_comparison(
     c: Json,
     flights: Sequence[str],
-    then: str = "",
+    command: str = "",
     rows: Sequence[tuple[str, Json]] = (),
     *,
     judged: bool = True,
@@ -173,7 +173,7 @@ def describe_comparison(
         ]
         sections.append(Section("Where it fails", tuple(worst), tabulate_terms(where["motion"])))
     sections += _describe_off_sheet(c["off_sheet"])
-    return (*sections, *(suggest_next(then) if judged and not c["adequate"] else ()))
+    return (*sections, *(suggest_next(command) if judged and not c["adequate"] else ()))
 
 
 def write_comparison_headline(c: Json) -> str:
@@ -188,8 +188,8 @@ def write_comparison_headline(c: Json) -> str:
     )
 
 
-def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = "") -> Sections:
-    """The result of ``compare --frozen``; ``again`` is the command that calibrates anew."""
+def describe_held(c: Json, flights: Sequence[str], command: str = "", calibrate: str = "") -> Sections:
+    """The result of ``compare --frozen``; ``calibrate`` is the command that calibrates anew."""
     h = c["frozen"]
     frozen, free = c["error"]["calibrated"], h["free"]["calibrated"]
     holds, on = "holds" if h["holds"] else "does NOT hold", write_flights(list(h["flights"]))
@@ -200,7 +200,7 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
         f" {number(h['chi2'])} in {h['degrees_of_freedom']} directions (p {numbers.equate_probability(h['log10_p'])}).",
     )
     rows = (("nominal", c["error"]["nominal"]), ("frozen", frozen), ("free", free))
-    first, *others = describe_comparison(c, flights, then, rows, judged=False)
+    first, *others = describe_comparison(c, flights, command, rows, judged=False)
     sections = [Section(sentences=(*head, *first.sentences), state="good" if h["holds"] else "bad"), *others]
     if h["suspects"]:
         single: Columns = {
@@ -210,7 +210,7 @@ def describe_held(c: Json, flights: Sequence[str], then: str = "", again: str = 
         }
         title = "Single parameters whose change would explain it"
         sections.append(Section(title, table=tabulate(h["suspects"], single)))
-    save = "" if h["holds"] or not again else f"if the instrument may have changed: {again} --save"
+    save = "" if h["holds"] or not calibrate else f"if the instrument may have changed: {calibrate} --save"
     return (*sections, *suggest_next(save))
 
 
@@ -309,8 +309,8 @@ def describe_values(effects: Sequence[Json], *, explained: bool = False) -> Sect
     return tuple(sections)
 
 
-def describe_diagnosis(d: Json, then: str = "") -> Sections:
-    """The result of ``diagnose``; ``then`` is the command that adds what was found."""
+def describe_diagnosis(d: Json, command: str = "") -> Sections:
+    """The result of ``diagnose``; ``command`` is the command that adds what was found."""
     claimed = [r for r in d["ranking"] if r["effect"] in d["found"]]
     values = [p for e in claimed for p in _list_values(e) if _is_clear(p, e)]
     lines = (write_verdict(d), *map(describe_finding, claimed), *_list_remarks(d), *explain_patterns(values))
@@ -329,7 +329,7 @@ def describe_diagnosis(d: Json, then: str = "") -> Sections:
         sections.append(Section("Next motion", tuple(map(motion_sentence, d["next_motion"]))))
     sections += _list_untestable(d)
     sections += _describe_off_sheet(d["off_sheet"])
-    return (*sections, *(suggest_next(then) if d["found"] else ()))
+    return (*sections, *(suggest_next(command) if d["found"] else ()))
 
 
 def _list_remarks(d: Json) -> list[str]:
@@ -413,9 +413,9 @@ def motion_sentence(p: Json) -> str:
     )
 
 
-def write_promise(then: float, spread: float) -> str:
+def write_promise(sigmas: float, spread: float) -> str:
     """A separation that a motion promises, with its spread where that shows."""
-    return number(then) if spread < 0.05 * then else numbers.plus_minus(then, spread)
+    return number(sigmas) if spread < 0.05 * sigmas else numbers.plus_minus(sigmas, spread)
 
 
 def _write_size(text: str) -> str:
@@ -469,10 +469,10 @@ def describe_step(
     return (first, tabulate_errors([*rows, make_floor_row(after)]), *describe_values(values))
 
 
-def describe_addition(a: Json, effects: Sequence[str], then: str = "", use: str = "") -> Sections:
+def describe_addition(a: Json, effects: Sequence[str], diagnose: str = "", calibrate: str = "") -> Sections:
     """The result of ``add``; ``effects`` are those of the model afterwards.
 
-    ``then``, ``use``: the command that follows where the model is not adequate yet, and where it is.
+    ``diagnose``, ``calibrate``: the command that follows where the model is not adequate yet, and where it is.
     """
     if not a.get("converged", True):
         return say_plainly(f"{a['effect']!s} was NOT added: {a['reason']!s}.")
@@ -482,7 +482,7 @@ def describe_addition(a: Json, effects: Sequence[str], then: str = "", use: str 
         *describe_step([a["effect"]], [], a["before"], a["after"], [a]),
         *say_plainly(f"{write_effects(effects)}."),
         *_describe_off_sheet(a["off_sheet"]),
-        *suggest_next(use if a["after"]["adequate"] else then),
+        *suggest_next(calibrate if a["after"]["adequate"] else diagnose),
     )
 
 

@@ -49,7 +49,7 @@ UNTIMED = (
 )
 
 
-def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sections:
+def describe_calibration(c: Json, flights: Sequence[str], command: str = "") -> Sections:
     """The result of ``calibrate``."""
     e, directions, model = c["error"], c["directions"], write_effects(c["effects"])
     head = (
@@ -69,7 +69,7 @@ def describe_calibration(c: Json, flights: Sequence[str], then: str = "") -> Sec
         *tabulate_parameters(c["combinations"], c["parameters"]),
         *(_describe_drift(c["drifting"]) if "drifting" in c else ()),
         *(_describe_certificate(c["certificate"], c["certified"]) if "certificate" in c else ()),
-        *suggest_next(then),
+        *suggest_next(command),
     )
 
 

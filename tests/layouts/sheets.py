@@ -10,7 +10,7 @@ import numpy as np
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
 from ragg_runtime.reference import EffectValues, simulate
-from ragg_runtime.reference.scenario import draw_gradient, draw_motion, perturbed
+from ragg_runtime.reference.scenario import draw_gradient, draw_motion, perturb
 from ragg_runtime.reference.simulate import eotvos_noise
 from tests.simulated import RATE
 
@@ -111,7 +111,7 @@ def odd() -> list[str]:
 def flown_by(sheet: Instrument, duration: float, effects: EffectValues = MappingProxyType({})) -> Flight:
     """``duration`` s of an instrument that the sheet knows to a third of its errors, with white noise of 2 Eo/sqrt(Hz)."""
     s = simulate(
-        perturbed(sheet, np.random.default_rng(5), 0.3),
+        perturb(sheet, np.random.default_rng(5), 0.3),
         draw_motion(np.random.default_rng(3), duration),
         duration,
         RATE,

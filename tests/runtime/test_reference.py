@@ -40,7 +40,7 @@ from ragg_runtime.reference import (
 )
 from ragg_runtime.reference.effects import EffectValues, resolve
 from ragg_runtime.reference.effects.force import gravity_tensor
-from ragg_runtime.reference.geometry import Taylor, carried
+from ragg_runtime.reference.geometry import Taylor, carry
 from ragg_runtime.reference.gravity import Gradient, PointMass
 from ragg_runtime.reference.motion import RecordedSignal, turns
 from ragg_runtime.reference.scenario import SHAPES, draw_motion, perfect, scenario, trimmed, turbulence
@@ -137,7 +137,7 @@ def test_what_a_turning_platform_carries_is_accelerated_as_its_positions_say() -
         np.array([[W[2, 1]], [W[0, 2]], [W[1, 0]]]) for W in (turning, (changing - changing.T) / 2)
     )
     expected = A[3].T @ (weights[1] @ np.einsum("nij,nj->ni", A, r))
-    np.testing.assert_allclose(carried(along, omega, omegadot)[:, 0], expected, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(carry(along, omega, omegadot)[:, 0], expected, rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("noise", [Noise(omega_T=2e-14), Noise(1e-15, 1.0), Noise(3e-16, 1.7, 1e-15)])

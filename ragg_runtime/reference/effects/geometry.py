@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects import Injected, memory
 from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE
-from ragg_runtime.reference.geometry import Taylor, by_vector, stacked
+from ragg_runtime.reference.geometry import Taylor, by_vector, stack
 
 Array = NDArray[np.float64]
 Kinematics: TypeAlias = Literal["platform", "full"]
@@ -45,7 +45,7 @@ def run_out(phi: Taylor, effects: Injected) -> Taylor | None:
             total = total + wave * float(path[f"{a}_{k}{n}"])
         return total
 
-    return stacked((along("x"), along("y"), along("z")))
+    return stack((along("x"), along("y"), along("z")))
 
 
 def random_angle(rng: np.random.Generator, size: int, rate: float, effects: Injected) -> Array:

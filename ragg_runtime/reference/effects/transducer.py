@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects import Injected, memory
-from ragg_runtime.reference.geometry import Taylor, carried
+from ragg_runtime.reference.geometry import Taylor, carry
 from ragg_runtime.reference.motion import MotionState
 
 Array = NDArray[np.float64]
@@ -110,7 +110,7 @@ def case_rate(triad: Triad, motion: MotionState) -> Triple:
 
 def case_acceleration(triad: Triad, motion: MotionState) -> Triple:
     """Angular acceleration of a case about its x, y and z axes, rad/s^2, from where these axes turn to."""
-    x, y, z = ((v.value, carried(v, motion.omega, motion.omegadot)) for v in triad)
+    x, y, z = ((v.value, carry(v, motion.omega, motion.omegadot)) for v in triad)
 
     def about(next_: tuple[Array, Array], last: tuple[Array, Array]) -> Array:
         # u'' = alpha x u + Omega x (Omega x u); of the two, the first alone is antisymmetric.
@@ -155,14 +155,14 @@ def _along(axis: Taylor, auxiliaries: Mapping[str, Array]) -> Array:
     return np.asarray(auxiliaries["B_x"] * x + auxiliaries["B_y"] * y + auxiliaries["B_z"] * z)
 
 
-def torqued(j: int, triad: Triad, auxiliaries: Mapping[str, Array], effects: Injected) -> Array | float:
+def torque_gain(j: int, triad: Triad, auxiliaries: Mapping[str, Array], effects: Injected) -> Array | float:
     """Factor by which the field in the torquer's gap changes the current of accelerometer j."""
     flux = effects.get("magnetic-scale")
     level = {**auxiliaries, "B_z": np.zeros(1)}
     return 1.0 if flux is None else 1 + flux["dK1_dB"][j] * _along(triad[0], level)
 
 
-def converted(j: int, bracket: Array, effects: Injected) -> Array:
+def convert(j: int, bracket: Array, effects: Injected) -> Array:
     """What the converter of accelerometer j makes of its current, m/s^2."""
     uneven = effects.get("adc-nonlinearity")
     return bracket if uneven is None else bracket + uneven["h"][j] * np.sign(bracket)

@@ -171,7 +171,7 @@ def fail(message):
 
 if __name__ == "__main__":
     motion = read(sys.stdin)
-    found = outputs(motion)
-    print(",".join(["time", *found]))
-    for row in zip(motion["time"], *found.values()):
+    result = outputs(motion)
+    print(",".join(["time", *result]))
+    for row in zip(motion["time"], *result.values()):
         print(",".join(f"{x:.17g}" for x in row))
