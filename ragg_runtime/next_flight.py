@@ -1,4 +1,4 @@
-"""The next flight: the motion that separates alternatives that the flights so far cannot, as a file that can be flown and simulated."""
+"""The next flight: a motion that separates the alternatives left by the flights so far, as a file to fly or simulate."""
 
 from __future__ import annotations
 
@@ -156,9 +156,9 @@ MATTER = 1e-3
 
 @dataclass(frozen=True)
 class ChannelVariance:
-    """How uncertain parameters show in the compensated channels of the motion of the flights.
+    """How uncertain parameters show in the compensated channels, in the motion of the flights.
 
-    ``r_factors`` (2, n, n): R factors of the mean product of the changes of inline, and of cross, Eo, by a scale of each parameter.
+    ``r_factors`` (2, n, n), Eo: of the mean square of inline, and of cross, as linear functions of the parameters in their scales.
     """
 
     known: Knowledge
@@ -202,7 +202,7 @@ class ChannelVariance:
         return -2 * float(np.sum(np.log(np.linalg.svd(matter @ invert_root(R), compute_uv=False))))
 
     def promise(self, motion: Sequence[Sinusoid], duration: float) -> dict[str, Any]:
-        """What so much, s, of a motion promises of the channels, of the parameters, and of combinations of accelerometers."""
+        """Standard deviations of channels, parameters and combinations now, and after ``duration`` s of a motion."""
         f, R = self.known.f, {"now": self.known.root, "then": self.known.fly(motion, duration, LONGEST)}
         root, columns = {when: invert_root(x) for when, x in R.items()}, f.calibration.columns
 
@@ -260,9 +260,9 @@ def read_plan(path: Path) -> Json:
 
 
 def certify(plan: Json, f: Fitted, calibration: Json) -> dict[str, Any]:
-    """What was planned and what was reached, for the JSON of `calibrate`, which is given with the fit that it is of.
+    """Planned against reached uncertainties, added to the JSON of `calibrate`; ``calibration`` is that JSON, ``f`` its fit.
 
-    ``certificate``: of every parameter its value and standard uncertainties; ``certified``: the same of the combinations, and what all
+    ``certificate``: value and standard uncertainties of every parameter; ``certified``: those of the combinations, and what all
     parameters add to the channels of the first flight.
     """
     values = [*calibration["combinations"], *calibration["parameters"]]

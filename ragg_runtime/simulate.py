@@ -147,9 +147,7 @@ def _collect_auxiliaries(
 
 
 def _take_motion(x: Flight, start: float) -> tuple[reference.MotionSignals, float, float]:
-    """The motion of a flight, from ``start``, s, on, the time, s, in which it was sampled, and its rate, Hz: flown, it has as many
-    samples.
-    """
+    """The motion of a flight, beginning at ``start``, s; its duration, s, and rate, Hz, which give as many samples."""
     a, omega = (np.stack([x.channels[f"{n}_{k}"] for k in "xyz"]) for n in ("a", "omega"))
     return reference.recorded_motion(x.time - x.time[0] + start, a, omega), len(x) / x.rate, x.rate
 

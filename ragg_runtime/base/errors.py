@@ -1,4 +1,4 @@
-"""The one error that a user sees: what is wrong, where, what was found, what is expected, what to do; checks of what files give."""
+"""The one error that a user sees: what is wrong, where, found, expected, remedy; and checks of values read from files."""
 
 from __future__ import annotations
 

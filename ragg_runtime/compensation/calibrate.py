@@ -1,4 +1,4 @@
-"""Calibrate once: the parameters, which of them the record determines, which only the prior does, and what is kept of them."""
+"""Calibrate once: fitted parameters, which of them the record determines and which the prior, and the file that keeps them."""
 
 from __future__ import annotations
 
@@ -313,8 +313,9 @@ def _parse_saved(e: Mapping[str, Any], m: Loaded, refuse: Callable[..., UserErro
 def _rescale(
     upper: list[list[float]], scales: Mapping[tuple[str, int | None], float], columns: tuple[Column, ...]
 ) -> Array:
-    """The root of the information, of which the rows of the upper triangle were kept in these scales, in those of the present columns; one
-    that was not fitted then is as sure as the sheet.
+    """The root of the information in the scales of the present columns, from the rows of its ``upper`` triangle in saved ``scales``.
+
+    A parameter that was not fitted then has the sheet's prior.
     """
     R, labels = np.zeros((len(scales), len(scales))), list(scales)
     R[np.triu_indices(len(scales))] = np.concatenate(upper)

@@ -3,8 +3,8 @@
 The blocks' R factors are the measurements of a square-root information filter, forward and backward (G. Bierman, Factorization
 Methods for Discrete Sequential Estimation, 1977; D. Fraser and J. Potter, IEEE Trans. Autom. Control 14, 1969). Which parameters
 walk, and how fast, is chosen by the evidence of the forward filter: kind by kind, the same share of the sheet's error an hour for
-all accelerometers (as GOCE: C. Siemes et al. 2012). Constant parameters that take a drift for their own are far from those that walk, so
-that the filter is linearised again about what it has found, with the noise that is left then: theirs holds the walk.
+all accelerometers (as GOCE: C. Siemes et al. 2012). The filter is linearised twice: a fit of constant parameters to a drift is far
+from parameters that walk, and counts the walk as noise.
 """
 
 from __future__ import annotations

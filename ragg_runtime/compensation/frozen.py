@@ -33,12 +33,12 @@ INFORMED = 0.1
 noise that would hide a change."""
 
 TESTED, BLOCKS = 8000, 4
-"""Samples, and number, of the blocks of a long flight that say whether a calibration holds: seconds of work, where
-the whole flight would take longer than it takes to compensate it."""
+"""Samples and number of the blocks of a long flight by which a calibration is tested: that takes seconds, all of the
+flight longer than its compensation."""
 
 SEGMENTS, SAMPLES = 4, 80_000
-"""Most segments of a flight, and samples of these together, of which the noise is estimated: half of what a fit takes needs half of
-the time, and gives the standard deviation of what passes the low-pass to 2 % at 100 Hz."""
+"""Most segments of a flight, and their samples together, from which the noise is estimated: half of a fit's, in half the time; the
+noise behind the low-pass comes out to 2 % at 100 Hz."""
 
 SUSPECTS = 5
 """Parameters that are named, at most, where the calibration does not hold."""

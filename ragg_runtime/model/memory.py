@@ -1,11 +1,10 @@
-"""The record as a model with certain parameters takes it: what an instrument remembers of it, and motion shifted in time.
+"""What an instrument remembers of a record, by parameters of the model; and motion shifted in time.
 
-What it remembers is the record's own motion, force and heat, passed through what has the memory.
-
-With b = 1/(2 pi f_0)^2 and d = 1/(2 pi f_0 Q) a ``mount`` adds (H - 1) x to the motion x, H = (1 + d s)/(1 + d s + b s^2); an
-``accelerometer`` sees s/(1 + d s + b s^2) and s^2/(1 + d s + b s^2) of the force that turns with the disc; ``heat`` are products of
-that force behind 1/(1 + tau s), and exp(-t/tau), ``creep`` and ``flow``, of a bias and of a mount, the force itself; ``slip`` and
-``play`` are what friction makes of it in a bias and in a mount, -1 to 1, ``cycle`` what it makes of the temperature.
+Kinds of memory, with b = 1/(2 pi f_0)^2, d = 1/(2 pi f_0 Q), and the force that turns with the disc:
+``mount`` adds (H - 1) x to the motion x, H = (1 + d s)/(1 + d s + b s^2); ``accelerometer``: the force behind
+s/(1 + d s + b s^2) and s^2/(1 + d s + b s^2); ``heat``: products of its components behind 1/(1 + tau s), and exp(-t/tau);
+``creep``, ``flow``: the same of the force itself, in a bias and in a mount; ``slip``, ``play``: friction, -1 to 1, of the
+force in a bias and in a mount; ``cycle``: friction of the temperature.
 """
 
 from __future__ import annotations
@@ -33,20 +32,20 @@ FORGOTTEN = 14.0
 """Time constants after which a linear response has forgotten: exp(-14) is a millionth."""
 
 SLIPPED = 120.0
-"""s in which a force has changed so often that it is forgotten where what slips has begun."""
+"""s after which it no longer matters in which state a slipping part began: the force has changed often enough."""
 
 WHOLE = 1e9
 """s: a temperature may turn but once in a record."""
 
 SETTLED = 3.0
-"""s in which a disc has turned the force over, so that what slips in it has slipped."""
+"""s in which a turning disc has turned the force over, so that what can slip has slipped."""
 
 LEAST = 2e-3
 """Least value of what describes a memory, in neutral ones: a fit may try others on its way."""
 
 SHARE = 0.15
-"""Of the standard deviation of the force in the disc's plane, at which a search for what slips begins: from 0.01 to 0.4 of it what is
-not absorbed by the calibration is alike by 0.7 and more (two flights)."""
+"""Width of friction at which a search begins, over the standard deviation of the force in the disc's plane: from 0.01 to 0.4
+the signatures beside the calibration correlate by 0.7 and more (two flights)."""
 
 FINER = 4
 """Instants a sample at which what slips is followed: a force turns back between samples."""

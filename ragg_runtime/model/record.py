@@ -38,7 +38,7 @@ PARALLEL = 1e-9
 """Sine of the angle between two input axes below which they are parallel."""
 
 HALO = 32
-"""Samples on either side that a part of a record keeps, so that second derivatives come out as in the whole."""
+"""Further samples on either side of a part of a record: second derivatives are then those of the whole."""
 
 
 READING = "G_out"
@@ -139,7 +139,7 @@ class Record:
 
     @cached_property
     def spin(self) -> Mapping[str, Array]:
-        """Rate and acceleration of the disc angle, (before + N + after,): those of the whole record, in every part of it."""
+        """Rate and acceleration of the disc angle, (before + N + after,); a part has those of the whole record."""
         size = len(self.time) + sum(self.halo)
         if self.whole is not None:
             return {n: x[self.first : self.first + size] for n, x in self.whole.spin.items()}
@@ -162,9 +162,10 @@ class Record:
         return None if wide is None else self._inner(wide)
 
     def quantity(self, name: str) -> Array:
-        """(N,): what a level of noise may follow: ``time``, ``phi`` (from 0 to 2 pi), a channel, ``abs(CHANNEL)``, ``abs(VECTOR)``, its
-        length, ``input(K)``, the size of the specific force along the input axis of the output's accelerometer K, ``input`` and
-        ``input-rms``, mean and quadratic mean of these, which weigh by the power that they add.
+        """(N,): what a level of noise may follow: ``time``, ``phi`` (0 to 2 pi), a channel, ``abs(CHANNEL)``, or ``abs(VECTOR)``, a length.
+
+        ``input(K)``: size of the specific force along the input axis of the output's accelerometer K; ``input``, ``input-rms``: mean
+        and quadratic mean of these, weighted by the power that each adds.
         """
         if name == "time":
             return self.time
@@ -232,8 +233,8 @@ class Record:
     def moved(self, moves: Mapping[str, tuple[float, float]]) -> Record:
         """The record with motion taken from later in it: quantity (``a`` ...) -> lateness, s, at time 0 and per second.
 
-        An angular rate changes by what the recorded angular acceleration says, as in the chain's series: where that is less noisy than
-        the rate's own slope, a fit would else find another optimum from where it begins than from where it ends.
+        An angular rate is shifted by the integral of the recorded angular acceleration, as in the chain's series: with its own, noisier
+        slope, the optimum of a fit would depend on where it starts.
         """
         wide, samples = dict(self.wide), len(self.time) + sum(self.halo)
         at = np.arange(samples, dtype=np.float64)

@@ -203,7 +203,7 @@ def simulate(
 
 
 def _add_memories(chain: Chain, time: Array) -> Chain:
-    """The chain that knows what it has to remember of the flight: what it would do without these effects."""
+    """The chain with the series that its memories need, which are computed by the chain without these effects."""
     memories = {e: v for e, v in chain.effects.items() if e in MEMORIES}
     plain = replace(chain, effects={e: v for e, v in chain.effects.items() if e not in MEMORIES})
     if not memories or len(time) < 2:

@@ -370,7 +370,7 @@ NORMAL_99 = 2.5758
 """Half width of the interval that holds 99 % of a normal distribution, standard deviations."""
 
 TURNS, LONGEST, MOST_LAGS = 4.0, 30.0, 1200
-"""Lags reach over so many turns of the disc, so many seconds (of a disc that stands), and so many samples at most."""
+"""Longest lag: turns of the disc; seconds, where it stands; and samples at most."""
 
 BINS = 40
 """Bins of a channel, each of as many samples."""

@@ -255,7 +255,7 @@ Axis = Sequence[float] | Array
 
 COMPONENTS = ("xx", "xy", "xz", "yy", "yz", "zz")
 
-# smallest over largest singular value of the channels' dependence on the tensor below which they do not determine it
+# channels do not determine the tensor if their design matrix has a smaller ratio of least to largest singular value
 ILL = 1e-6
 
 
@@ -268,10 +268,9 @@ class Tensor:
     gamma
         (6, N), components in the order of :data:`COMPONENTS`, in the unit of the channels; without trace.
     closure
-        (checks, N): combinations of the channels that vanish for any gradient, each of them normalised so that
-        channels with errors of the size of ``std`` give it a standard deviation of 1.
+        (checks, N): combinations of the channels that vanish for any gradient, in units of their standard deviation.
     std
-        (6,): standard deviation of the components for the given ones of the channels.
+        (6,): standard deviation of the components, by those of the channels.
     """
 
     gamma: Array

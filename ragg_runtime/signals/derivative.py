@@ -144,9 +144,8 @@ PREDICTED = 24  # samples from which an autoregressive series predicts the next:
 
 
 def predict_missing(x: Array, present: Mask) -> Array:
-    """A series (N,), and where up to ``PREDICTED`` samples are missing those that it predicts best: it is taken to be autoregressive,
-    and the missing samples to be those that leave the least errors of prediction (A. Janssen, R. Veldhuis, L. Vries, IEEE Trans. ASSP
-    34, 1986, 317). Elsewhere, and where few stretches are whole, by a spline.
+    """A series (N,) whose gaps of up to ``PREDICTED`` samples are filled as an autoregressive series, with the least errors of prediction
+    (A. Janssen, R. Veldhuis, L. Vries, IEEE Trans. ASSP 34, 1986, 317); other gaps, and all if few stretches are complete, by a spline.
     """
     bridged, size = bridge_gaps(x, present, smooth=True), PREDICTED + 1
     complete = np.convolve(present, np.ones(size), "valid")[: 1 << 15] > PREDICTED + 0.5
@@ -218,13 +217,12 @@ def split_angle(angle: Array, late: Array | None = None) -> tuple[float, Array]:
 
 
 def choose_degree(x: Iterable[Array], half: int) -> int:
-    """That of DEGREES with the least expected error of the second derivative of runs of samples, (N,) each.
+    """The degree of DEGREES with the least expected error of the second derivative of runs of samples, (N,) each.
 
-    A step from one degree to the next changes the derivative by weights w, and so by s^2 |w|^2 in the mean square where there is
-    nothing but noise; the error grows by as much, and falls by what the change is beyond it (Mallows, Technometrics 15 (1973)
-    661). The variance s^2 is by what the highest degree leaves, or, where that is more, by a later step: the rounding of an
-    encoder whose turning fits the samples is not white, and a swing fades from step to step. Runs shorter than two windows
-    are too few samples.
+    From one degree to the next, weights change by w: the error's variance grows by s^2 |w|^2, and its bias falls by the mean
+    square of the change less that (Mallows, Technometrics 15 (1973) 661). The noise variance s^2 is that of the residual of the
+    highest degree, or of a later step if that is larger: rounding of an encoder may not be white. Runs shorter than two
+    windows do not count.
     """
     degrees = [d for d in DEGREES if d < 2 * half]
     if len(degrees) < 2:

@@ -1,4 +1,4 @@
-"""FIR filters of long series, and the step in which a column is recorded: of a converter, of single precision, of digits."""
+"""FIR filters of long series; and the resolution of a column: a converter's, of single precision or of decimal digits."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ GROUP = 4  # columns that are transformed at a time: more leave the cache
 
 
 def find_nonzero(columns: Floats) -> NDArray[np.bool_]:
-    """(n,): which of the columns (n, rows) are not zero: those of channels that were not recorded, and of other outputs, are."""
+    """(n,): which of the columns (n, rows) are not all zero; those of missing channels and of other outputs are."""
     begins = np.asarray(columns[:, :1].any(axis=1))
     return np.array([bool(begins[k] or x.any()) for k, x in enumerate(columns)], dtype=np.bool_)
 
@@ -62,12 +62,11 @@ def place_valid(rest: Array, valid: NDArray[np.bool_]) -> Array:
 
 
 def fill_gaps(columns: Array, present: NDArray[np.bool_], taps: Array, rounding: float = ROUNDING) -> Array:
-    """Columns (n, N), with samples that are not ``present`` (N,) such that the filter's output is least; before, these are zero, or near
-    what they will be.
+    """Columns (n, N) whose samples that are not ``present`` (N,) are chosen for the least output of the filter.
 
-    Where the filter whitens a noise, these are the best linear interpolation of it, and the whitened rest is what all samples that are
-    there tell (missing values as further parameters: M. Bartlett, J. R. Stat. Soc. Suppl. 4, 1937). Zeros in their place are as
-    loud next to a gap as the noise was before it was whitened.
+    On entry they are zero, or a first guess. If the filter whitens a noise, this is its best linear interpolation, and the same as
+    fitting each missing value as a parameter (M. Bartlett, J. R. Stat. Soc. Suppl. 4, 1937). Zeros instead would leave the
+    noise next to a gap as large as before whitening.
     """
     missing = np.flatnonzero(~present)
     if not len(missing) or len(taps) == 1 or len(missing) == len(present):

@@ -1,4 +1,4 @@
-"""What the columns of a foreign file are: a first mapping to be answered, what comes of it, and keeping it with the model."""
+"""Columns of a foreign file: drafting a mapping for the user to complete, trying it, and keeping it with the model."""
 
 from __future__ import annotations
 

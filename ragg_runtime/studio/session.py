@@ -343,7 +343,7 @@ def list_own(m: Loaded, effect: str, add: str, units: Mapping[str, str]) -> Load
 
 
 class Branches:
-    """The steps of a history as a tree of states, each named by the step that made it: undo, redo and going back only move in it."""
+    """The history as a tree of states, each numbered as the step that made it; undo, redo and restore move in it."""
 
     def __init__(self, history: Sequence[HistoryStep]) -> None:
         self.parents: dict[int, int | None] = {}

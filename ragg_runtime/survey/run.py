@@ -110,7 +110,7 @@ def survey(
 
 
 def name_flights(files: Sequence[str]) -> dict[str, str]:
-    """File -> the flight's name, in the order of these: of the file, with as many folders before it as distinguish it from others."""
+    """File -> the flight's name, sorted by name: the file's own, after as many folders as make it unique."""
     split = {f: split_line(f) for f in files}
     unnamed, depth = {path for path, _ in split.values()}, 0
     names: dict[Path, str] = {}
@@ -147,7 +147,7 @@ def examine_all(
 ) -> Generator[tuple[str, Record]]:
     """(file, record) of every flight as it is done; closing the iterator ends the work.
 
-    Flights at which a worker died are tried again at the end, each alone: so it is plain which of them it was.
+    Flights at which a worker died are tried again at the end, each alone, to find which one it was.
     """
     failed: dict[str, BaseException | None] = dict.fromkeys(files)
     for attempt in range(attempts):
@@ -188,8 +188,9 @@ def _run(pool: Executor, job: Job, waiting: deque[str], limit: int) -> Generator
 
 @contextlib.contextmanager
 def open_processes(jobs: int, flights: int) -> Iterator[tuple[Executor, int]]:
-    """Processes of this machine, at most one a flight, each given one at a time: what is running when one dies is what it may have
-    died of. They have inherited no Ctrl-C, which is the parent's, and are killed at the end.
+    """Processes of this machine, at most one a flight, and how many flights run at once: one each, so that few are suspect when one dies.
+
+    Ctrl-C goes to the parent alone; processes are killed at the end.
     """
     jobs = min(jobs, flights)
     context = multiprocessing.get_context("spawn")  # the same on every system; no locks are inherited
@@ -270,8 +271,9 @@ def tell_progress(done: int, total: int, record: Record | None) -> None:
 def open_journal(
     path: Path | None, job: Job, files: Sequence[str]
 ) -> Iterator[tuple[dict[str, Record], Callable[[Record], None]]]:
-    """Open or make a results file: what it holds of the files that has not changed and is no error, and how to keep a record, which is
-    then on the disc. UserError if it is another survey's, or if another is writing to it; without a path nothing is kept.
+    """Open or make a results file: its records of unchanged files, errors left out; and a function that writes a record to disc.
+
+    UserError if it is another survey's, or another process writes to it; without a path nothing is kept.
     """
     if path is None:
         yield {}, lambda record: None

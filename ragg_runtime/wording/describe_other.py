@@ -95,7 +95,7 @@ def tabulate_parameters(
 
 
 def _explain_single(parameters: Sequence[Json]) -> list[str]:
-    """Where some accelerometers have a value that others lack: it is not what a fit of all of them calls by the same name."""
+    """A remark where a parameter is fitted for some accelerometers only: it means something else if all are fitted."""
     fitted: dict[str, list[str]] = {}
     for p in parameters:
         if p["accelerometer"] is not None:

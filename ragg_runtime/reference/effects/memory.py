@@ -68,7 +68,7 @@ CYCLE = "thermal friction"
 
 
 def former(effect: str) -> str:
-    """Name of the series of what is left, 1 to 0, of the heat or strain with which a record begins."""
+    """Name of the series that decays from 1 to 0: the heat or strain with which a record begins."""
     return f"former {effect}"
 
 
@@ -89,8 +89,9 @@ def list_memories(
     auxiliaries: Mapping[str, Callable[[Array], Array]],
     time: Array,
 ) -> Mapping[str, Callable[[Array], Array]]:
-    """Series that no record has, as functions of time, s: of the forces (n, 3, N) along the accelerometers' axes, and of their
-    currents (n, N) for a unit scale factor, m/s^2; and of the auxiliary channels.
+    """Series that no record has, as functions of time, s.
+
+    ``forces``: (n, 3, N) m/s^2 along the accelerometers' axes; ``currents``: (n, N) m/s^2, for a unit scale factor.
     """
     fine = np.linspace(time[0], time[-1], OVER * (len(time) - 1) + 1)
     series: dict[str, Array] = {}
