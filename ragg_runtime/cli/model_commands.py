@@ -336,7 +336,7 @@ def _run(*words: str) -> None:
 
 
 def _describe_recovery(added: Mapping[str, Any]) -> list[str]:
-    """What was hidden and what was found, of the combination of accelerometers that the record determines best."""
+    """The hidden and the recovered value of the combination of accelerometers that the record determines best."""
     effect, _, values = HIDDEN
     q = max(added["combinations"], key=describe.significance)
     true = sum(w * x for w, x in zip(q["weights"], values, strict=True))

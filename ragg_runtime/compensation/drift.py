@@ -34,7 +34,7 @@ SLOWEST, FASTEST = -6.0, 1.0
 """Decades of the standard deviation after an hour, over the sheet's error, within which a walk is sought."""
 
 WORTH = 4.5
-"""Log evidence that a kind of parameter must gain by walking: as much as distinguishes two explanations elsewhere."""
+"""Log evidence that a walk must gain: what distinguishes two explanations elsewhere."""
 
 HOUR = 3600.0
 
@@ -197,8 +197,7 @@ def _smooth(f: Fitted, starts: Sequence[float], timed: bool, rates: Mapping[str,
 def find_starts(flights: Sequence[Flight]) -> tuple[list[float], bool]:
     """When each flight begins, s after the first, and whether their stamps say so.
 
-    Dates do, and times of a day as long as no two flights overlap: then they are of several days. Else one flight follows the other
-    without a gap.
+    Dates do; times of a day do unless flights would overlap, which are then of several days. Else flights follow without gaps.
     """
     first = [float(x.time[0]) for x in flights]
     days = [x.origin for x in flights]

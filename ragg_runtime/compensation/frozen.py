@@ -29,8 +29,8 @@ from ragg_runtime.wording import numbers
 Array = NDArray[np.float64]
 
 INFORMED = 0.1
-"""A direction is tested where the flight knows at least this share of what the saved calibration knows: the rest is
-noise that would hide a change."""
+"""Least information of the flight, over that of the saved calibration, for a direction to be tested: others would add
+noise that hides a change."""
 
 TESTED, BLOCKS = 8000, 4
 """Samples and number of the blocks of a long flight by which a calibration is tested: that takes seconds, all of the
@@ -123,7 +123,7 @@ def describe_saved(saved: Saved) -> dict[str, Any]:
 def make_calibration(
     saved: Saved, model: Model, instrument: Instrument, observations: Sequence[Observation]
 ) -> Calibration:
-    """The saved parameters as the calibration of these flights, of which the noise alone is estimated."""
+    """The saved parameters as the calibration of these flights; only the noise is estimated from them."""
     root = invert_root(saved.information)
     at = make_point(model, instrument, saved.p, list_candidate_columns(model, instrument))
     noise = tuple(estimate_noise(at, o, most=SEGMENTS, samples=SAMPLES, slow=False) for o in observations)

@@ -83,8 +83,8 @@ class Online:
             self.R[:n, :n] = marginalise(saved.information, self.selection)
 
     def feed(self, o: Observation) -> Array:
-        """Take a flight (recorded gradients are not looked at): (6, k), of every instant at which the gradient takes a step of its
-        walk time, inline, cross, their standard deviations, Eo, and quality.
+        """Filter a flight, without recorded gradients: (6, k): time, inline, cross, their standard deviations, Eo, and quality, at every
+        step of the gradient's walk.
         """
         step = self.tuning.walk * np.array([0.0] * len(self.selection) + [STEEPER, 1.0])
         before = walked = float(o.record.time[0])

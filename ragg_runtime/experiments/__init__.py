@@ -1,7 +1,7 @@
-"""The three experiments of the paper's Section III, repeated: what it prints (Tables VI to VIII), and how ours is set beside it.
+"""The three experiments of the paper's Section III, repeated: its printed values (Tables VI to VIII) beside ours.
 
 M. Yu and T. Cai, *Mathematic Model And Error Analysis of Moving-base Rotating Accelerometer Gravity Gradiometer*. The instrument of
-Table V is ``ragg_runtime.reference.scenario.table_v``. Where the paper leaves an input open, the choice is said.
+Table V is ``ragg_runtime.reference.scenario.table_v``. Where the paper leaves an input open, our choice is stated.
 """
 
 from __future__ import annotations

@@ -421,7 +421,7 @@ def remove_effect(text: str, effect_id: str) -> str:
 
 
 def with_full_kinematics(text: str) -> str:
-    """``text`` with ``[model] kinematics = "full"``, where it has no ``[model]`` (nor ``disc-spin``, which is another way to it)."""
+    """``text`` with ``[model] kinematics = "full"``, unless it has a ``[model]``, or ``disc-spin``, which also stands for it."""
     document = _document(text)
     if "model" in document or _find(document.get("effects", []), "disc-spin") is not None:
         return text
@@ -447,7 +447,7 @@ def _entry(setting: EffectSetting) -> Any:
 
 
 def _inline(quantity: RawQuantity | None, further: Mapping[str, Any]) -> Any:
-    """A quantity, and what is said of it besides, less what is false or empty."""
+    """An inline table of a quantity and further keys, those that are false or empty left out."""
     table = tomlkit.inline_table()
     if quantity is not None:
         table.update({"value": _plain(quantity.value), "unit": quantity.unit})

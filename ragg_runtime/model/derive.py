@@ -224,7 +224,7 @@ def read_chain(instrument: Instrument) -> str:
 
 
 MOST_KEPT = 200
-"""Derivations that are kept, at most half a megabyte each: a catalogue's effects one by one, and pairs of those that are used."""
+"""Derivations that are kept, at most half a megabyte each: enough for each effect of the catalogue, and pairs of the usual ones."""
 
 
 def identify(instrument: Instrument, ids: Sequence[str] | None = None, *, candidates: bool = True) -> str:

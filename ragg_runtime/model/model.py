@@ -27,9 +27,9 @@ Array = NDArray[np.float64]
 
 
 class Recogniser(Protocol):
-    """A module that recognises an effect of the recorder. Its result is certain: no level is spent on it.
+    """A module that recognises an effect of the recorder, with certainty: no level is spent on it.
 
-    It is asked of the outputs, or of the columns that it names as ``CHANNELS``.
+    It examines the outputs, or the columns that it names as ``CHANNELS``.
     """
 
     def present(self, values: Array, valid: NDArray[np.bool_], noise: float) -> bool:
@@ -95,7 +95,7 @@ class DerivedEffect:
     contains: tuple[str, ...] = ()
 
     def missing(self, recorded: Container[str]) -> tuple[str, ...]:
-        """The channels that it needs and a flight, which has those recorded, does not have."""
+        """The channels that it needs and that a flight with these ``recorded`` lacks."""
         missing = tuple(c for c in self.channels if c not in recorded)
         return () if self.either and len(missing) < len(self.channels) else missing
 

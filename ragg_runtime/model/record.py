@@ -42,7 +42,7 @@ HALO = 32
 
 
 READING = "G_out"
-"""The channel by which a chain sees what the converter of its own output has given, whatever that output is called."""
+"""The chain's name for the reading of its own output's converter, whatever that output is called."""
 
 SPIN = ("d_spin_angle", "d2_spin_angle")
 """Rate and acceleration of the disc angle: in every record, with an encoder or without."""
@@ -51,7 +51,7 @@ SPIN_WINDOW = 0.6
 """Half the stretch, s, over which the encoder's angle is smoothed for its rate."""
 
 EVEN = 1e-7
-"""Steps by which instants may be off even ones to count as even: the last digits of a time of a day."""
+"""Steps by which instants that count as even may be off: the last digits of a time of a day."""
 
 
 @dataclass(frozen=True)
@@ -121,9 +121,7 @@ class Record:
 
     @cached_property
     def carriers(self) -> tuple[Array, Array]:
-        """Those on which inline and cross are put to be one series: the gradient's, or, where they were recorded more
-        seldom, ones that turn by a quarter from sample to sample.
-        """
+        """Carriers that make one series of inline and cross: the gradient's; a quarter turn a sample, if these were thinned out."""
         if self.every == 1:
             return self.quadratures
         angle = np.pi / 2 * np.remainder(np.rint(self.time * self.rate), 4.0 * self.every) / self.every
@@ -279,8 +277,7 @@ def make_spin(spin_frequency: float, samples: int) -> dict[str, Array]:
 def measure_spin(encoder: Array, time: Array, rate: float) -> dict[str, Array]:
     """Rate, rad/s, and acceleration, rad/s^2, of the disc angle, (N,) each, by an encoder, rad; zero where it has none.
 
-    What the disc turns while a sample is late is no swing of it; the swing itself is so slow that it may be differentiated as if steps
-    were even.
+    The steady turn is taken at the samples' own instants; the rest, the swing, is so slow that it is differentiated as if they were even.
     """
     late = (time - time[:1]) * rate - np.arange(len(time))
     even = np.max(np.abs(late), initial=0.0) <= EVEN

@@ -127,7 +127,7 @@ def estimate_spectrum(
 
 
 def pass_band(x: Array, rate: float, low: float, high: float) -> Array:
-    """(N,): what of a series, zero where it has no value, oscillates between two frequencies (Hz)."""
+    """(N,): a series, zero where it has no value, between two frequencies (Hz)."""
     f = np.fft.rfftfreq(len(x), 1.0 / rate)
     return np.asarray(np.fft.irfft(np.where((f >= low) & (f <= high), np.fft.rfft(x), 0.0), len(x)))
 
@@ -468,7 +468,7 @@ def plot_against(f: Fitted, n: int, residual: Array, channel: str) -> Curves:
 
 
 def _divide(e: Array, x: Array) -> list[NDArray[np.intp]]:
-    """The samples at which both are known, in bins of x, each of as many."""
+    """The samples at which both have a value, in bins of x with equal counts."""
     index = np.flatnonzero(np.isfinite(e) & np.isfinite(x))
     ordered = index[np.argsort(x[index], kind="stable")]
     return [p for p in np.array_split(ordered, BINS) if len(p) > 2]

@@ -34,14 +34,14 @@ CUTOFF = 0.2  # half-amplitude frequency of the low-pass (Hz), as in the paper
 # transition width (Hz): the stop band begins at 0.25 Hz, where the neighbours of the 2nd harmonic land
 WIDTH = 0.1
 ATTENUATION = 100.0  # stop-band attenuation (dB)
-# sampling rate (Hz) at which the length of the low-pass is rounded to samples: that of the paper's experiments here
+# sampling rate, Hz, at which the length of the low-pass is a whole number of samples: that of our repeated experiments
 REFERENCE = 16.0
 # Butterworth, in each direction; half-power frequency, Hz: forward and backward it passes half of the amplitude there
 ORDER, CORNER = 6, 0.18
 # share of its sum at which a Butterworth kernel is cut off: far below what noise leaves of any gradient
 FORGOTTEN = 1e-9
 ROOM = 32  # samples on either side into which a delay of part of a sample may ring
-# highest frequency, Hz, and number of those at which power is summed: beyond it nothing passes
+# highest frequency, Hz, at which power is summed, as nothing passes beyond it; and number of frequencies
 TOP, GRID = 0.5, 4001
 EDGE = 1e-4  # share of the kernel that may lie beyond the record's end: of a gradient of 1000 Eo it is 0.1 Eo
 
@@ -179,7 +179,7 @@ class Demodulator:
         return np.asarray(polyval(back, self.taps) * back ** (-float(self.ahead)))
 
     def pass_power(self, psd: Callable[[Array], Array], carrier: float) -> float:
-        """Variance of the low-pass of 2 cos(2 pi carrier t) times a noise of one-sided density ``psd``, per Hz, of frequencies, Hz."""
+        """Variance of a noise of one-sided density ``psd`` (function of Hz, per Hz) times 2 cos(2 pi carrier t), low-passed."""
         top = min(TOP, self.rate / 2)
         f = np.linspace(-top, top, GRID)
         power = np.abs(self.response(f)) ** 2 * psd(np.abs(carrier + f))

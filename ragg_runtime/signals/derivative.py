@@ -202,11 +202,11 @@ def smooth_slope(x: Array, half: int, order: int, degree: int = DEGREES[0]) -> A
 
 
 def split_angle(angle: Array, late: Array | None = None) -> tuple[float, Array]:
-    """An angle, rad, (N,), N > 1, in which whole turns may be missing: its mean step a sample, and what it has beyond it, (N,).
+    """Split an angle, rad, (N,), N > 1, in which whole turns may be missing, into its mean step a sample and its swing, (N,).
 
     ``late`` (N,): by how many steps each sample is later than an evenly spaced one.
 
-    A swing of a radian keeps its digits where the angle itself, of thousands of radians, would lose them.
+    A swing of a radian keeps digits that an angle of thousands of radians would lose.
     """
     steps = np.diff(angle)
     steps -= 2 * np.pi * np.rint(steps / (2 * np.pi))

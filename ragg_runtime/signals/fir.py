@@ -108,15 +108,11 @@ def convolve(x: Series, taps: Array, mode: Literal["valid", "same", "full"] = "v
     return result.reshape(*x.shape[:-1], -1)
 
 
-# samples of a column from which its step is found: sorted, they are closer together than most of the others
-LOOKED_AT = 1 << 15
-# different values from which a step can be told: that so many lie on a grid to OFF by chance has a probability of 2e-7
-FEWEST = 8
-# times that every value occurs on average from which fewer tell it as well: no continuous column repeats itself
-REPEATED = 20
-# part of a step by which values may lie off its multiples: what writing them in decimal digits makes of them
-OFF = 0.1
-FINEST = 1e-12  # step over the range of a column below which it is the rounding of floating-point numbers
+LOOKED_AT = 1 << 15  # samples of a column from which its step is found
+FEWEST = 8  # different values at least: that so many lie on a grid within OFF by chance has probability 2e-7
+REPEATED = 20  # fewer values suffice if each occurs so often on average: no continuous column repeats itself
+OFF = 0.1  # part of a step by which values may lie off its multiples, as decimal digits round them
+FINEST = 1e-12  # smaller steps, over the range of the column, are rounding of floating-point numbers
 
 
 def find_step(x: Array) -> float | None:

@@ -1,4 +1,4 @@
-"""What the studio has open, and what is known of it: one state, replaced whole, that every page shows."""
+"""What the studio has open, and its results: one state, replaced whole, that every page shows."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from ragg_runtime.studio.mapping import is_foreign
 
 T = TypeVar("T")
 Part = Callable[[str, float], None]
-"""Announces a part of some work: what it is, and the samples that it passes over."""
+"""Announces a part of some work: its name, and the samples that it goes through."""
 
 SERIES = 24
 """Series of a state that are remembered: of a day at 100 Hz each takes 40 MB."""
@@ -69,12 +69,12 @@ class SeriesCache:
 
 @dataclass(frozen=True)
 class State:
-    """What is open and known; ``None`` and empty where it is not yet.
+    """What is open, and its results; ``None`` or empty where there is none yet.
 
-    ``read`` are the flights as they were read, ``cuts`` the segments (from, to, s) of each that are left out, ``kept`` how many at
-    the end are kept for validation; ``compared`` and ``diagnosed`` are results for exactly the others, ``held`` how the model
-    calibrated on them holds on those kept. ``previous`` is the comparison before the last step, ``trial`` an own effect that is
-    not kept yet; ``cache`` holds series that were made of these.
+    ``read``: the flights as they were read; ``cuts``: the segments (from, to, s) of each that are left out; ``kept``: how many at
+    the end are kept for validation. ``compared``, ``diagnosed``: results for the other flights; ``held``: how their calibration
+    holds on those kept. ``previous``: the comparison before the last step; ``trial``: an own effect that is not in the model
+    yet; ``cache``: series made of these.
     """
 
     loaded: Loaded | None = None
@@ -241,7 +241,7 @@ class Session:
             self._change(api.load(m.directory.path))
 
     def _change(self, m: Loaded) -> None:
-        """Another model in the place of this one: what was known of it becomes the state before."""
+        """Replace the model; its comparison becomes the previous one."""
         self._forget(previous=self.state.compared, loaded=m)
         self.look()
 

@@ -54,8 +54,9 @@ def fingerprint() -> tuple[tuple[str, str], ...]:
 
 @dataclass(frozen=True)
 class Job:
-    """The model that flights are compared with: model.toml, where it is, and the mapping (text, place, whether it is the model's
-    own); ``program``: the :func:`fingerprint` of the program that asks; ``cluster``: examined on another machine.
+    """The model that flights are compared with: model.toml and its path; mapping (text, path, whether it is the model's own).
+
+    ``program``: :func:`fingerprint` of the program that started the survey; ``cluster``: examined on another machine.
     """
 
     text: str

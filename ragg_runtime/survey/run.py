@@ -124,7 +124,7 @@ def name_flights(files: Sequence[str]) -> dict[str, str]:
 
 
 def drop_repeated(records: Sequence[Record]) -> Iterator[Record]:
-    """The records; of those of one and the same record of an instrument the first, the others in error."""
+    """The records; where several are of the same recording, the first, and an error for each other."""
     first: dict[str, str] = {}
     for r in records:
         same = r["file"] if CONTENT not in r else first.setdefault(r[CONTENT], r["file"])

@@ -472,7 +472,7 @@ def describe_step(
 def describe_addition(a: Json, effects: Sequence[str], diagnose: str = "", calibrate: str = "") -> Sections:
     """The result of ``add``; ``effects`` are those of the model afterwards.
 
-    ``diagnose``, ``calibrate``: the command that follows where the model is not adequate yet, and where it is.
+    ``diagnose``, ``calibrate``: commands to run next if the model is not adequate yet, and if it is.
     """
     if not a.get("converged", True):
         return say_plainly(f"{a['effect']!s} was NOT added: {a['reason']!s}.")

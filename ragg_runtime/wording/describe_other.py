@@ -1,4 +1,4 @@
-"""What comes after a model, of many flights, of files and of the catalogue, as sections."""
+"""Results other than comparisons and diagnoses as sections: calibration, compensation, surveys, files, the catalogue."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A calibrated model taken elsewhere: as a C program, as NumPy, as JSON, each with a short motion and the model's answer to it."""
+"""Export of a calibrated model as a C program, NumPy or JSON, each with a short motion and the model's outputs for it."""
 
 from __future__ import annotations
 
