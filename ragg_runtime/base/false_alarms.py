@@ -27,13 +27,13 @@ COMPANION = 0.005
 """Of each effect beside the first, of which there are three at most: a chance companion spoils a finding that is right."""
 
 REMAINDER = 0.004
-"""Of everything that is looked for in what is left, some 2,000 terms: the largest must be 4.9 sigma."""
+"""Of all generic terms in the residual, some 2,000: the largest must be 4.9 sigma."""
 
 REMAINDER_SHARES = (0.5, 0.25, 0.25)
 """How steady terms, terms that come and go, and lines in the spectrum divide :data:`REMAINDER`."""
 
 LEVEL = 1e-4
-"""That the noise's level follows something, over all that is asked: a remark beside the verdict."""
+"""Of the remark that the noise level follows something, over all quantities tested."""
 
 CHANGE = 0.01
 """Of ``holds_until_s``: a change is said to be in flights in which there is none (over all of their blocks of time)."""

@@ -48,7 +48,7 @@ SPIN = ("d_spin_angle", "d2_spin_angle")
 """Rate and acceleration of the disc angle: in every record, with an encoder or without."""
 
 SPIN_WINDOW = 0.6
-"""Half the stretch, s, over which the encoder's angle is smoothed for its rate."""
+"""Half the segment, s, over which the encoder's angle is smoothed for its rate."""
 
 EVEN = 1e-7
 """Steps by which instants that count as even may be off: the last digits of a time of a day."""
@@ -283,12 +283,12 @@ def measure_spin(encoder: Array, time: Array, rate: float) -> dict[str, Array]:
     even = np.max(np.abs(late), initial=0.0) <= EVEN
     spin = make_spin(0.0, len(time))
     half = min(max(round(SPIN_WINDOW * rate), DEGREES[0]), HALO)
-    stretches = [
+    segments = [
         (run, *split_angle(encoder[run], None if even else late[run]))
         for run in runs(np.isfinite(encoder), DEGREES[0] + 2)
     ]
-    best = choose_degree((swing for _, _, swing in stretches), half)
-    for run, steady, swing in stretches:
+    best = choose_degree((swing for _, _, swing in segments), half)
+    for run, steady, swing in segments:
         window = min(half, (len(swing) - 1) // 2)
         degree = max(d for d in DEGREES if d == DEGREES[0] or d <= min(best, 2 * window - 1))
         spin[SPIN[0]][run] = (smooth_slope(swing, window, 1, degree) + steady) * rate

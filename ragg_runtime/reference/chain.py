@@ -38,7 +38,7 @@ _STEP = 0.01
 """Between the instants at which an arm's length is looked at to learn how fast it changes, s."""
 
 _WARMING = 1e-4
-"""Half the stretch over which the rate of a temperature is taken, s."""
+"""Half the segment over which the rate of a temperature is taken, s."""
 
 _FIRST = (1 / 12, -2 / 3, 0.0, 2 / 3, -1 / 12)
 _SECOND = (-1 / 12, 4 / 3, -5 / 2, 4 / 3, -1 / 12)

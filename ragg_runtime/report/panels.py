@@ -122,7 +122,7 @@ def estimate_spectrum(
         f, p = signal.welch(x[r], rate, nperseg=size, detrend="constant")
         total += p * (r.stop - r.start)
     psd = total / sum(r.stop - r.start for r in segments)
-    # The lowest bin is what is left of the mean.
+    # The lowest bin holds the rest of the mean.
     return _bin_frequencies(f[2:], psd[2:], points)
 
 

@@ -145,7 +145,7 @@ PREDICTED = 24  # samples from which an autoregressive series predicts the next:
 
 def predict_missing(x: Array, present: Mask) -> Array:
     """A series (N,) whose gaps of up to ``PREDICTED`` samples are filled as an autoregressive series, with the least errors of prediction
-    (A. Janssen, R. Veldhuis, L. Vries, IEEE Trans. ASSP 34, 1986, 317); other gaps, and all if few stretches are complete, by a spline.
+    (A. Janssen, R. Veldhuis, L. Vries, IEEE Trans. ASSP 34, 1986, 317); other gaps, and all if few segments are complete, by a spline.
     """
     bridged, size = bridge_gaps(x, present, smooth=True), PREDICTED + 1
     complete = np.convolve(present, np.ones(size), "valid")[: 1 << 15] > PREDICTED + 0.5

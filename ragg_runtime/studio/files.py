@@ -156,7 +156,7 @@ def check_flight(path: Path) -> None:
     """Read an uploaded file in a process of its own; UserError, and the file is gone, if that fails or takes too long.
 
     A damaged file can bring down the library that reads it: then that process ends, and not the studio. A file with columns of
-    other names is kept: what they are is asked on the page.
+    other names is kept: the page asks what they are.
     """
     limit, fault = 120.0 + path.stat().st_size / 2e6, "it ends with a fault"
     command = [sys.executable, "-m", "ragg_runtime", "info", str(path)]

@@ -37,7 +37,7 @@ Record = dict[str, Any]
 """What a survey keeps of a flight: JSON."""
 
 CONTENT = "content"
-"""Key of a record under which stands the digest of what was recorded; not part of the result."""
+"""Key, in a record, of the digest of what was recorded; not part of the result."""
 
 RANKED = 5
 """Effects of the ranking that are kept."""
