@@ -19,7 +19,7 @@ from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.model.model import DerivedEffect, load_packaged
 from ragg_runtime.model.record import find_start
 from ragg_runtime.reference.chain import Auxiliary
-from ragg_runtime.reference.effects import EffectValues, channels_needed, resolve
+from ragg_runtime.reference.effects import EffectValues, find_channels, resolve
 from ragg_runtime.reference.geometry import Rotations
 from ragg_runtime.reference.motion import RecordedSignal, Turning
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion, perturb
@@ -136,7 +136,7 @@ def _collect_auxiliaries(
     seed: int, effects: EffectValues, count: int, record: Flight | None, start: float
 ) -> dict[str, Auxiliary]:
     """What every carrier records, and what the effects ask for beyond that; as ``record`` has it, from ``start``, s, on."""
-    needed = {c for e, values in resolve(effects, count).items() for c in channels_needed(e, values)}
+    needed = {c for e, values in resolve(effects, count).items() for c in find_channels(e, values)}
     rare = draw_rare(np.random.default_rng([seed, 14]))
     usual = draw_usual(np.random.default_rng([seed, 12]))
     channels: dict[str, Auxiliary] = {**usual, **{name: rare[name] for name in rare if name in needed}}

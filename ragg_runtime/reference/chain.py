@@ -82,25 +82,25 @@ class Chain:
         return self.instrument.layout.size
 
     @cached_property
-    def standing(self) -> tuple[Array | None, ...]:
+    def attitudes(self) -> tuple[Array | None, ...]:
         """How each disc is oriented in the measurement frame."""
         return tuple(disc_attitude(d) for d in self.instrument.layout.discs)
 
     def voltages(self, time: Array, angle_error: Array) -> Array:
         """V_1 ... V_n without noise, (n, N) V, at (N,) s; ``angle_error`` (N,) rad: random part of phi."""
-        present = self._unfiltered(time, 0.0, angle_error)
+        present = self._sense(time, 0.0, angle_error)
         change = np.zeros_like(present)
         b = float(self.effects["output-filter"]["b"]) if "output-filter" in self.effects else 0.0
         for delay, weight in transducer.averaging(b):
-            change += weight * (self._unfiltered(time, delay, angle_error) - present)
+            change += weight * (self._sense(time, delay, angle_error) - present)
         widths = transducer.widths(self.effects, self.size)
         for width in np.unique(widths[widths > 0]):
             group = np.flatnonzero(widths == width)
             for delay, weight in transducer.loop_quadrature(float(width)):
-                change[group] += weight * (self._unfiltered(time, delay, angle_error) - present)[group]
+                change[group] += weight * (self._sense(time, delay, angle_error) - present)[group]
         return np.asarray(present + change)
 
-    def _unfiltered(self, time: Array, earlier: float, angle_error: Array) -> Array:
+    def _sense(self, time: Array, earlier: float, angle_error: Array) -> Array:
         """The voltages (n, N) V so much earlier (s), loops and their lags included."""
         tau = transducer.lags(self.effects, self.size)
         shaken = force.vibration(self.effects, "vibration-rectification", "P")
@@ -220,9 +220,9 @@ class Chain:
         """f_x, f_y, f_z of accelerometer j, (N,) m/s^2, and the triad they are along."""
         arm, triad, lift = self._in_measurement_frame(j, fixed, instant)
         if not geometry.bends(j, self.effects):
-            return self._specific_force(j, _lifted(arm * radius, lift), triad, instant, shake), triad
-        length, f = self._settled(j, fixed, radius, instant, shake)
-        around = [self._settled(j, fixed, radius, near, shake)[0] for near in instant.around]
+            return self._specific_force(j, _lift(arm * radius, lift), triad, instant, shake), triad
+        length, f = self._settle(j, fixed, radius, instant, shake)
+        around = [self._settle(j, fixed, radius, near, shake)[0] for near in instant.around]
         beside = np.stack([*around[:2], length, *around[2:]])
         changing = Taylor(length, _FIRST @ beside / _STEP, _SECOND @ beside / _STEP**2)
         m = instant.motion
@@ -231,16 +231,16 @@ class Chain:
         x, y, z = (part + np.sum(further * tau.value, axis=0) for part, tau in zip(f, triad, strict=True))
         return (x, y, z), triad
 
-    def _settled(
+    def _settle(
         self, j: int, fixed: Mount, radius: float, instant: Instant, shake: Array
     ) -> tuple[Array, Triple]:
         """Radius under the force that acts at this radius, (N,) m, and that force."""
         arm, triad, lift = self._in_measurement_frame(j, fixed, instant)
-        f = self._specific_force(j, _lifted(arm * radius, lift), triad, instant, shake)
+        f = self._specific_force(j, _lift(arm * radius, lift), triad, instant, shake)
         length = np.full(instant.time.shape, radius)
         for _ in range(_ARM_ITERATIONS):
             length = geometry.arm_length(j, radius, f, self.effects)
-            f = self._specific_force(j, _lifted(arm * length, lift), triad, instant, shake)
+            f = self._specific_force(j, _lift(arm * length, lift), triad, instant, shake)
         return length, f
 
     def _in_measurement_frame(
@@ -254,9 +254,9 @@ class Chain:
             vectors = vectors @ lean.T
         turned = spin(vectors, instant.phi[disc])
         if (axis := geometry.lean(self.effects, "spin-axis-tilt", "alpha")) is not None:
-            turned = [v.turned(axis) for v in turned]
-        if (axes := self.standing[disc]) is not None:
-            turned = [v.turned(axes) for v in turned]
+            turned = [v.turn(axis) for v in turned]
+        if (axes := self.attitudes[disc]) is not None:
+            turned = [v.turn(axes) for v in turned]
         arm, tau_x, tau_y, tau_z, *lift = turned
         return arm, (tau_x, tau_y, tau_z), lift[0] if lift else None
 
@@ -264,13 +264,13 @@ class Chain:
         """Where the centre of accelerometer j's disc wanders to, (3, N) m."""
         disc = self.instrument.layout.places[j].disc
         away = geometry.run_out(instant.phi[disc], self.effects)
-        axes = self.standing[disc]
-        return away if away is None or axes is None else away.turned(axes)
+        axes = self.attitudes[disc]
+        return away if away is None or axes is None else away.turn(axes)
 
     def _specific_force(self, j: int, r: Taylor, triad: Triad, instant: Instant, shake: Array) -> Triple:
         """Eq. 49 at position r (3, N), or the specific force of a point moving like r, and Eq. 50: along the triad."""
         centre = self._centre(j, instant)
-        r = _lifted(r, centre)
+        r = _lift(r, centre)
         m, position = instant.motion, r.value
         of_platform = carry_rigidly(position, m.omega, m.omegadot)
         f = m.a + shake + of_platform
@@ -287,7 +287,7 @@ class Chain:
         return x, y, z
 
 
-def _lifted(r: Taylor, lift: Taylor | None) -> Taylor:
+def _lift(r: Taylor, lift: Taylor | None) -> Taylor:
     return r if lift is None else r + lift
 
 

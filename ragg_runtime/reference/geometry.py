@@ -157,7 +157,7 @@ class Taylor:
         c, s = np.cos(self.value), np.sin(self.value)
         return Taylor(s, c * self.first, -s * self.first**2 + c * self.second)
 
-    def turned(self, matrix: Array) -> Taylor:
+    def turn(self, matrix: Array) -> Taylor:
         """A vector (3, N) after a constant rotation (3, 3)."""
         return Taylor(matrix @ self.value, matrix @ self.first, matrix @ self.second)
 

@@ -15,7 +15,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output
 from ragg_runtime.io import Flight
 from ragg_runtime.reference.chain import Auxiliary, Chain
-from ragg_runtime.reference.effects import EffectValues, Injected, channels_needed, resolve
+from ragg_runtime.reference.effects import EffectValues, Injected, find_channels, resolve
 from ragg_runtime.reference.effects.geometry import Kinematics, random_angle, spin_share
 from ragg_runtime.reference.effects.memory import MEMORIES, find_resonance_loss, list_memories
 from ragg_runtime.reference.effects.sensing import record_motion, record_output
@@ -257,7 +257,7 @@ def _channels(
 
 def _require_channels(effects: Injected, auxiliaries: Mapping[str, Auxiliary]) -> None:
     for effect, parameters in effects.items():
-        for name in channels_needed(effect, parameters):
+        for name in find_channels(effect, parameters):
             if name not in auxiliaries:
                 raise UserError(
                     f"the effect {effect!r} needs the auxiliary channel {name!r}",

@@ -269,7 +269,7 @@ def _plot_trend(t: Json, n: int) -> Plot:
     """A calibrated parameter over the flights, less its mean, with one standard deviation."""
     at = np.array([k for k, v in enumerate(t["values"], 1) if v is not None], dtype=np.float64)
     v, std = (np.array([x for x in t[k] if x is not None]) for k in ("values", "stds"))
-    middle = numbers.with_unit(numbers.rounded(t["mean"], float(np.min(std))), t["unit"])
+    middle = numbers.with_unit(numbers.round_value(t["mean"], float(np.min(std))), t["unit"])
     name = t["name"] if t["accelerometer"] is None else f"{t['name']}[{t['accelerometer']}]"
     label, away = numbers.short(name, 44), v - t["mean"]
     band = Curve("± 1 sigma", at, away - std, "envelope", "band", away + std)

@@ -146,7 +146,7 @@ class Session:
     def _put(self, **changes: object) -> None:
         with self._lock:
             self.state = replace(self.state, **changes)  # type: ignore[arg-type]
-        self.jobs.changed()
+        self.jobs.tell_change()
 
     def _forget(self, **changes: object) -> None:
         self._put(**{**NOTHING, "cache": SeriesCache(), **changes})
@@ -444,7 +444,7 @@ class Jobs:
         if self._thread is not None:
             self._thread.join(seconds)
 
-    def changed(self) -> None:
+    def tell_change(self) -> None:
         """Something that the page shows has changed."""
         self._tell(revision=self.status.revision + 1)
 

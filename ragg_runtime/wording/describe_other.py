@@ -303,7 +303,7 @@ def _list_notes(done: Sequence[Json]) -> Sections:
 def _tabulate_trends(parameters: Sequence[Json]) -> Section:
     def mean(t: Json) -> str:
         std = min(s for s in t["stds"] if s is not None)
-        return numbers.with_unit(numbers.rounded(t["mean"], std), t["unit"])
+        return numbers.with_unit(numbers.round_value(t["mean"], std), t["unit"])
 
     columns: Columns = {
         "parameter": label_parameter,

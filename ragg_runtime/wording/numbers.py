@@ -83,7 +83,7 @@ def plus_minus(value: float, std: float) -> str:
     return f"{text}{THIN}×{THIN}{power(scale)}" if scale else text
 
 
-def rounded(value: float, std: float) -> str:
+def round_value(value: float, std: float) -> str:
     """``value`` alone, with the digits that :func:`plus_minus` gives it."""
     if not (math.isfinite(value) and math.isfinite(std) and std > 0.0) or value == 0.0:
         return number(value, 4)

@@ -239,19 +239,19 @@ def make_c(c: Contents) -> Files:
     model = next(n.removesuffix(".c") for n in c.sources if n.endswith(".c"))
     outputs = c.outputs()
     tolerance = TOLERANCE_EO * min(abs(o["scale_factor"]["value"]) for o in outputs)
-    makefile = _packaged("Makefile").replace("@MODEL@", model).replace("@TOLERANCE@", f"{tolerance:.3g}")
+    makefile = _read_packaged("Makefile").replace("@MODEL@", model).replace("@TOLERANCE@", f"{tolerance:.3g}")
     needed = [f"{n} [{unit_of(n)}]" for n in c.columns() if _is_needed(n)]
     return {
         "Makefile": makefile,
         "README.txt": _render("README.txt", c=c, outputs=outputs, needed=needed),
-        **{n: _packaged(n) for n in PROGRAM},
+        **{n: _read_packaged(n) for n in PROGRAM},
         **c.sources,
         "values.h": write_values(c, model),
         **make_tests(c),
     }
 
 
-def _packaged(name: str) -> str:
+def _read_packaged(name: str) -> str:
     return resources.files(__name__).joinpath("c", name).read_text("utf-8")
 
 

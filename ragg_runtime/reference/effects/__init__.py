@@ -167,7 +167,7 @@ def resolve(effects: EffectValues | None, count: int = 4) -> Injected:
     return resolved
 
 
-def channels_needed(effect: str, parameters: Values) -> tuple[str, ...]:
+def find_channels(effect: str, parameters: Values) -> tuple[str, ...]:
     """Auxiliary channels without which an effect of these parameters has no meaning."""
     if effect == "self-gradient":
         turning = any(value != 0 for name, value in parameters.items() if name.endswith("_pitch"))
