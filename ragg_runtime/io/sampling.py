@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -20,6 +20,9 @@ JITTER_NOTED = 1e-3  # deviation from uniform sampling, in steps, that is worth 
 JITTER_REFUSED = 0.25
 # deviation from a steady clock, in steps, from which a record is not uniformly sampled any more
 JITTER_TRACKED = 0.48
+MOSTLY_GAPS = 1.5
+"""Samples of the grid over those of the file from which gaps that recur are those of a buffer; a recorder that pauses loses few."""
+
 _MOST_MISSING = 0.9  # of all samples; beyond it the gaps are not gaps but the file is a collection of pieces
 
 # leaps of the stamps in a record that are named one by one, where they last longer than the record
@@ -112,6 +115,14 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
         raise _refuse_uneven(time, steps, step, np.where(jumps <= 1, off, 0.0), where)
     index = np.concatenate([[0], np.cumsum(jumps)])
     size = int(index[-1]) + 1
+    if (rate := _find_even_rate(time, jumps)) is not None:
+        raise UserError(
+            "the time stamps are too coarse for the sampling rate",
+            where=where,
+            found=f"gaps as regular as if stamps of {rate:.6g} Hz were rounded, or read from a buffer for several samples at once",
+            expected="stamps to half a step, or all rows",
+            remedy=_BY_COUNT.format(rate=rate),
+        )
     if size > len(time) / (1 - _MOST_MISSING) or not span / step < 2.0**53:
         what = "more than nine samples in ten are missing"
         remedy = "split the record at its gaps into one file each"
@@ -121,14 +132,6 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
             remedy = _BY_COUNT.format(rate=1 / step)
         found = f"{len(time)} samples in {span:.6g} s, with steps of {step:.6g} s"
         raise UserError(what, where=where, found=found, remedy=remedy)
-    if np.sum(jumps > 1) >= BESIDE and (coarse := _unround(time, np.arange(len(time)), 1.0)) is not None:
-        raise UserError(
-            "the time stamps are too coarse for the sampling rate",
-            where=where,
-            found=f"gaps as regular as if stamps of {1 / coarse[2]:.6g} Hz were rounded to {coarse[0]:g} s",
-            expected="stamps to half a step, or all rows",
-            remedy=_BY_COUNT.format(rate=1 / coarse[2]),
-        )
     rounded = _unround(time, index, 1.0 if size == len(time) else 0.5)
     if rounded is None:
         whole = time if size == len(time) else np.interp(np.arange(size), index, time)
@@ -238,6 +241,17 @@ def _find_unit(time: Array) -> float | None:
     return unit if slack < 0.1 * unit and np.all(np.abs(time[1:] - time[0] - places * unit) < slack) else None
 
 
+def _find_even_rate(time: Array, jumps: NDArray[np.int64]) -> float | None:
+    """Hz of even samples whose stamps have gaps as they were rounded, or come in bursts; ``None``: some samples are missing."""
+    if np.sum(jumps > 1) < BESIDE or (np.max(jumps) > 2 and np.sum(jumps) < MOSTLY_GAPS * len(jumps)):
+        return None
+    rows = np.arange(len(time))
+    step, first = (float(c) for c in np.polyfit(rows, time, 1))
+    late = float(np.ptp(time - first - step * rows))
+    regular = late <= min(2 * BESIDE * step, float(np.max(np.diff(time))))
+    return 1 / _round_rate(step, late / len(time)) if regular else None
+
+
 def _round_rate(step: float, error: float) -> float:
     """The step of the roundest rate within ``error``, s, of a step; else the step itself."""
     rates = (float(f"{1 / step:.{digits}g}") for digits in range(1, 10))
@@ -331,6 +345,14 @@ def fit_even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, floa
     return float(time[0] + np.mean(t - set_by[k] - step * k)), step, set_by
 
 
+def fit_clock_put_right(time: Array, steps: Sequence[ClockStep]) -> tuple[float, float]:
+    """First instant and interval, s, of even samples whose clock drifts and is put right in steps: just after them it is right."""
+    rows = np.array([c.row for c in steps])
+    close = 0.1 * min(abs(c.size) for c in steps) / float(np.ptp(rows))
+    step = _round_rate(float(np.polyfit(rows, time[rows], 1)[0]), close)
+    return float(np.mean(time[rows] - step * rows)), step
+
+
 # --- in words ------------------------------------------------------------------------------------------
 
 
@@ -364,7 +386,9 @@ def _ask_about(steps: Iterable[object]) -> str:
 
 def _refuse_uneven(time: Array, steps: Array, step: float, off: Array, where: str) -> UserError:
     row, present = int(np.argmax(off)), np.ones(len(time), dtype=np.bool_)
-    what, remedy = "the record is not uniformly sampled", "resample the record to a constant rate"
+    rate = 1 / _round_rate(float(time[-1] - time[0]) / (len(time) - 1), float(np.max(steps)) / len(time))
+    what = "the record is not uniformly sampled"
+    remedy = f"if its stamps alone are late: time = row / {rate:.6g} Hz; else resample the record to a constant rate"
     if was_set := find_clock_steps(time, present):
         what = _ask_about(was_set)
         step = fit_even_clock(time, present)[1]

@@ -16,7 +16,13 @@ from ragg_runtime.instrument.layout import Disc
 from ragg_runtime.io import Flight
 from ragg_runtime.io.assemble import FEWEST_LEVELS, derive_acceleration
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, DEMODULATED, SPECIFIC_FORCE, Flag
-from ragg_runtime.io.sampling import JITTER_NOTED, ClockStep, find_clock_steps, fit_even_clock
+from ragg_runtime.io.sampling import (
+    JITTER_NOTED,
+    ClockStep,
+    find_clock_steps,
+    fit_clock_put_right,
+    fit_even_clock,
+)
 from ragg_runtime.model.model import Model, scale_factor
 from ragg_runtime.model.record import EVEN, find_recorded, find_start, list_recorded_channels
 from ragg_runtime.screening.linear_fit import INDEPENDENT, Sampler, find_inliers, fit_rows, make_sampler
@@ -316,16 +322,19 @@ def _with_right_clock(s: Sampler) -> Flight:
     # times by the count are even: what that is worth where stamps jitter says nothing about a clock
     least = min(own.misfit, fit_rows(even.take()).misfit) if steps and worst > EVEN else own.misfit
     several = [steps, *([c] for c in steps if len(steps) > 1)] if steps else []
-    gains = [least - fit_rows(s.with_flight(_by_count(x, some)).take()).misfit for some in several]
+    clocks = [(some, _by_count(x, some, first, step)) for some in several]
+    if len(several) > 1:
+        clocks.append((steps, _by_count(x, steps, *fit_clock_put_right(x.time, steps))))
+    gains = [least - fit_rows(s.with_flight(made).take()).misfit for _, made in clocks]
     gain = max(gains, default=0.0)
     if INDEPENDENT * gain > CLOCK:
-        found = several[gains.index(gain)]
+        found, made = clocks[gains.index(gain)]
         where = ", ".join(str(c) for c in found[:3])
         text = (
             f"the time stamps jump {where} (was the clock adjusted?), but sampling continued: times are taken from the sample"
             f" count ({np.exp(gain):.3g} times less remains unexplained)"
         )
-        return derive_acceleration(_by_count(x, found)).flagged([Flag(("time",), text)])
+        return derive_acceleration(made).flagged([Flag(("time",), text)])
     undecided = "; whether the clock was set instead is hidden by what the model leaves unexplained"
     undecided = undecided if abs(INDEPENDENT * gain) < CLOCK else ""
     pauses = (
@@ -358,9 +367,8 @@ def _is_even(s: Sampler, even: Sampler, p: Array) -> bool:
     return bool(np.sum((d * e)[kept]) < 0.5 * np.sum((d * d)[kept]))
 
 
-def _by_count(x: Flight, steps: Sequence[ClockStep]) -> Flight:
+def _by_count(x: Flight, steps: Sequence[ClockStep], first: float, step: float) -> Flight:
     """The flight with times by the sample count; rows that are missing where the clock was set are no gap."""
-    first, step, _ = fit_even_clock(x.time, x.present)
     kept = np.ones(len(x), dtype=np.bool_)
     for c in steps:
         before = np.flatnonzero(x.present[: c.row])

@@ -231,8 +231,10 @@ def test_rounded_stamps_are_put_on_their_grid(rate: float, start: float, unit: f
 
 
 def test_stamps_rounded_to_most_of_a_step_are_no_gaps() -> None:
-    with pytest.raises(UserError, match=r"too coarse[^$]*16 Hz were rounded to 0\.05 s"):
-        make_grid(np.round(TIME / 0.05) * 0.05, None)
+    bursts = (TIME // size * size + (TIME % size) * share for size, share in ((0.125, 0.48), (1.0, 0.02)))
+    for stamps in (np.round(TIME / 0.05) * 0.05, *bursts):
+        with pytest.raises(UserError, match=r"too coarse[^$]*16 Hz were rounded[^$]*row / 16 Hz"):
+            make_grid(stamps, None)
     lost = np.random.default_rng(4).random(N) > 0.1
     assert len(make_grid(TIME[lost], None).index) == np.sum(lost)
 
