@@ -31,10 +31,9 @@ from ragg_runtime.model.model import Model, make_vector, scale_factor
 
 Array = NDArray[np.float64]
 
+# in an unweighted fit the noise counts as no less than what is left over this: the prior then weighs little, but keeps parameters from
+# drifting
 LEAN = 10.0
-"""In an unweighted fit the noise counts as no less than what is left over this: the prior then weighs little, but keeps parameters from
-drifting.
-"""
 
 
 @dataclass(frozen=True)
@@ -90,8 +89,8 @@ class _Fall(Linear):
         return float(self.data[-1, -1] ** 2) / max(self.rows, 1)
 
 
+# of every observation its noise, and what an unknown gradient spans by that in each segment, whatever the parameters are
 Weights = Sequence[tuple[NoiseModel, Sequence[Sequence[Window]]]]
-"""Of every observation its noise, and what an unknown gradient spans by that in each segment, whatever the parameters are."""
 
 
 @dataclass(frozen=True)
@@ -201,8 +200,8 @@ def _r_factor(piece: Piece) -> tuple[Array, int, Array]:
     return piece.r_factor(), piece.white.shape[1], piece.sums()
 
 
+# standard errors of the sheet from which a parameter is named: none of a few dozen should be there by chance
 FAR = 5.0
-"""Standard errors of the sheet from which a parameter is named: none of a few dozen should be there by chance."""
 
 
 @dataclass(frozen=True)
@@ -247,22 +246,18 @@ def list_off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list
     return sorted((x for x in found if abs(x.sigmas) > FAR), key=lambda x: -abs(x.sigmas))
 
 
+# root mean square of the distances of one kind of parameter, in the sheet's sigmas, from which the sheet is less sure of this kind
+# than it says (or than is plausible), by that factor
 WIDE = 2.0
-"""Root mean square of the distances of one kind of parameter, in the sheet's sigmas, from which the sheet is less sure of this kind
-than it says (or than is plausible), by that factor."""
-
-STATED = "stated"
-"""The kind of all parameters of which the sheet says how sure it is."""
-
+STATED = "stated"  # the kind of all parameters of which the sheet says how sure it is
+# factor by which a width must have changed for the fit to be made again: the logarithm of a prior's width hardly matters
 AGAIN = 1.5
-"""Factor by which a width must have changed for the fit to be made again: the logarithm of a prior's width hardly matters."""
-
+# excess of chi-square up to which the record says how far off the sheet parameters are; beyond it an effect is missing
 QUIET = 2.0
-"""Excess of chi-square up to which the record says how far off the sheet parameters are; beyond it an effect is missing."""
 
+# share of what is left that must be the sheet's doing for a sheet that is less sure to be worth a fit: of what stays however wide it
+# is (linearised), not even a curved valley takes most
 HELD = 0.5
-"""Share of what is left that must be the sheet's doing for a sheet that is less sure to be worth a fit: of what stays however wide it
-is (linearised), not even a curved valley takes most."""
 
 
 def widen_priors(model: Model, instrument: Instrument, c: Calibration) -> Instrument | None:

@@ -27,14 +27,10 @@ from ragg_runtime.signals.demodulators import find_demodulator, low_pass
 Array = NDArray[np.float64]
 
 FITTED_BLOCKS = tuple(b for b in range(BLOCKS) if (b // 4) % 2 == 0)
+# blocks of time on which a held-out fit is made; the others, in turn with them, score it
 HELD_OUT_BLOCKS = tuple(b for b in range(BLOCKS) if b not in FITTED_BLOCKS)
-"""Blocks of time on which a held-out fit is made; the others, in turn with them, score it."""
-
-TOGETHER = 1 << 27
-"""Residuals that are held in memory together."""
-
-WIDENED = 3
-"""Most times that a sheet is taken to be less sure than it says."""
+TOGETHER = 1 << 27  # residuals that are held in memory together
+WIDENED = 3  # most times that a sheet is taken to be less sure than it says
 
 
 @dataclass(frozen=True)

@@ -39,11 +39,9 @@ def orthonormalise(columns: Array) -> Array:
     return np.asarray(np.linalg.qr(columns[norms > 1e-9 * np.max(norms, initial=0.0)].T)[0])
 
 
+# rows that enter an R factor at a time: so many that it is passed through seldom, so few that they stay in the cache
 CHUNK = 2048
-"""Rows that enter an R factor at a time: so many that it is passed through seldom, so few that they stay in the cache."""
-
-PANEL = 32
-"""Columns that LAPACK eliminates at a time."""
+PANEL = 32  # columns that LAPACK eliminates at a time
 
 
 def compute_r_factor(columns: Array) -> Array:
@@ -106,42 +104,31 @@ def marginalise(root: Array, own: Sequence[int]) -> Array:
     return whole[len(others) :, len(others) :]
 
 
+# Chi-square that the linearised problem may still promise at an optimum: a tenth of a standard deviation in one direction, well below
+# what noise does to any estimate
 SETTLED = 0.01
-"""Chi-square that the linearised problem may still promise at an optimum: a tenth of a standard deviation in one
-direction, well below what noise does to any estimate."""
-
+# the same as a share of chi-square, where what is left is far more than noise: half of it is the share of the rms
 RELATIVE = 1e-5
-"""The same as a share of chi-square, where what is left is far more than noise: half of it is the share of the rms."""
-
+# Chi-square still promised at which a search ends that gains less than SETTLED in a step: a curved valley, or rounding
 VALLEY = 1.0
-"""Chi-square still promised at which a search ends that gains less than :data:`SETTLED` in a step: a curved valley, or rounding."""
 
+# the same where what is left is far more than noise, as a share of chi-square: half of it is the share of the rms, below the 1 % to
+# which it is asked for. A search ends there whose step gained less than RELATIVE and could not have been longer.
 SLOW = 0.01
-"""The same where what is left is far more than noise, as a share of chi-square: half of it is the share of the rms, below the
-1 % to which it is asked for. A search ends there whose step gained less than :data:`RELATIVE` and could not have been longer."""
-
-ACCEPTED = 1e-4
-"""Least share of the promised decrease for which a step is taken."""
-
-POOR, GOOD = 0.25, 0.75
-"""Shares below which the radius shrinks, and above which it may grow (Moré's)."""
-
-CORRECTION = 0.5
-"""Length of a step back to the floor of a valley over that of the step along it."""
-
-CORRECTIONS = 2
-"""Most of them after a step."""
-
+ACCEPTED = 1e-4  # least share of the promised decrease for which a step is taken
+POOR, GOOD = 0.25, 0.75  # shares below which the radius shrinks, and above which it may grow (Moré's)
+CORRECTION = 0.5  # length of a step back to the floor of a valley over that of the step along it
+CORRECTIONS = 2  # most of them after a step
+# difference between a step's fall and what was promised of it, as a share, up to which the problem counts as linear
 FAITHFUL = 0.01
-"""Difference between a step's fall and what was promised of it, as a share, up to which the problem counts as linear."""
 
+# most trials of a fit; usual are two or three. Where there is no noise but the last digits of a file the floor of the valley is a
+# thousand times narrower, and a hundred steps lead along it.
 MOST_TRIALS = 150
-"""Most trials of a fit; usual are two or three. Where there is no noise but the last digits of a file the floor of the valley is a
-thousand times narrower, and a hundred steps lead along it."""
 
+# trials after which, again and again, a search must be on its way to its end. Along a valley whose floor is a parabola what is left to
+# gain falls with the square of the way that is left, which at the pace of these trials must be gone within the rest of them.
 PACE = 20
-"""Trials after which, again and again, a search must be on its way to its end. Along a valley whose floor is a parabola what is left to
-gain falls with the square of the way that is left, which at the pace of these trials must be gone within the rest of them."""
 
 
 @dataclass(frozen=True)

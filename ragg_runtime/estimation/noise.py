@@ -31,32 +31,17 @@ from ragg_runtime.signals.fir import Floats, fill_gaps, filter_columns
 
 Array = NDArray[np.float64]
 
-CHANGES = false_alarms.LEVEL
-"""p-value, over all that is asked, from which the level follows something."""
-
-INTERVALS = 48
-"""Intervals of time whose levels are compared."""
-
-FINEST = 512
-"""Most of those between which the level may change."""
-
+CHANGES = false_alarms.LEVEL  # p-value, over all that is asked, from which the level follows something
+INTERVALS = 48  # intervals of time whose levels are compared
+FINEST = 512  # most of those between which the level may change
+# shares of the samples, in the order of some quantity, at which groups end: forces have long tails, and there the noise is loudest
 GROUPS = (*(np.arange(1, 8) / 8), 15 / 16, 31 / 32)
-"""Shares of the samples, in the order of some quantity, at which groups end: forces have long tails, and there the noise is loudest."""
-
+# quantities between whose groups the level steps; with any other one it goes on smoothly, and variances may grow
 STEPPED = ("time", "phi")
-"""Quantities between whose groups the level steps; with any other one it goes on smoothly, and variances may grow."""
-
-SECTORS = 16
-"""Sectors of the disc's angle: a level that swells twice a turn takes eight for each time."""
-
-ABSENT = 1e-9
-"""Share of a direction's square below which it is rounding."""
-
-FEWEST = 20
-"""Samples that a group must have."""
-
-MOST = 3
-"""Most things that the level follows at once."""
+SECTORS = 16  # sectors of the disc's angle: a level that swells twice a turn takes eight for each time
+ABSENT = 1e-9  # share of a direction's square below which it is rounding
+FEWEST = 20  # samples that a group must have
+MOST = 3  # most things that the level follows at once
 
 
 @dataclass(frozen=True)
@@ -264,8 +249,8 @@ def describe_level(level: Level) -> str | None:
     return f"the noise level changes {' and '.join(said)}; samples are weighted accordingly"
 
 
+# channels whose own values are no quantity for a level, but their sizes
 MOTION = frozenset((*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION, *GRADIENT))
-"""Channels whose own values are no quantity for a level, but their sizes."""
 
 
 @dataclass(frozen=True)

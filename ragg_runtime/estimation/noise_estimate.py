@@ -47,27 +47,19 @@ from ragg_runtime.signals.fir import fill_gaps, find_nonzero
 
 Array = NDArray[np.float64]
 
+# greatest length of the whitening filter, samples: red noise needs as much memory as it has power
 TAPS = 24576
-"""Greatest length of the whitening filter, samples: red noise needs as much memory as it has power."""
-
+# most segments of a flight of which the noise is estimated: 260,000 samples tell a smooth spectrum
 NOISE_SEGMENTS = 8
-"""Most segments of a flight of which the noise is estimated: 260,000 samples tell a smooth spectrum."""
-
+# times that what columns and gaps have taken of noise that is not white is computed anew, with the spectrum that it led to
 AGAIN = 3
-"""Times that what columns and gaps have taken of noise that is not white is computed anew, with the spectrum that it led to."""
-
-RED = 1.5
-"""Density at the lowest frequencies over that in the middle from which that is done for columns."""
-
+RED = 1.5  # density at the lowest frequencies over that in the middle from which that is done for columns
+# series of noise that show what gaps take: of a third of a single frequency's power that is missing they tell a tenth
 DRAWS, NEIGHBOURS = 16, 9
-"""Series of noise that show what gaps take: of a third of a single frequency's power that is missing they tell a tenth."""
-
-SHORTEST = 128
-"""Least number of samples of which noise can be estimated."""
+SHORTEST = 128  # least number of samples of which noise can be estimated
 
 
-CONSTANT = Level()
-"""A level that follows nothing."""
+CONSTANT = Level()  # a level that follows nothing
 
 
 def estimate_noise(
@@ -150,12 +142,12 @@ class _Part:
         return self.outputs[0].valid
 
 
+# gain in log likelihood a sample from which voltages are turned to their principal components: a correlation of 0.43 between two
 SHARED = 0.1
-"""Gain in log likelihood a sample from which voltages are turned to their principal components: a correlation of 0.43 between two."""
 
+# most times that voltages are turned to their principal components. Each is fitted by itself, which takes some of what they share:
+# noise that is shared became 30 times weaker with each turn in the others.
 TURNS_OF_AXES = 4
-"""Most times that voltages are turned to their principal components. Each is fitted by itself, which takes some of what they share: noise
-that is shared became 30 times weaker with each turn in the others."""
 
 
 def _find_principal_components(parts: Sequence[_Part]) -> Array | None:
@@ -172,12 +164,10 @@ def _find_principal_components(parts: Sequence[_Part]) -> Array | None:
     return np.asarray(np.linalg.eigh(rests @ rests.T)[1].T)
 
 
+# widths of a line, one over the length of a window, from which on it is told from a multiple of the spin rate: one nearer is left to
+# the search beside those, for what is fitted to it would take of what turns with the disc
 RESOLVED = 4.0
-"""Widths of a line, one over the length of a window, from which on it is told from a multiple of the spin rate: one nearer
-is left to the search beside those, for what is fitted to it would take of what turns with the disc."""
-
-TURNS = 4
-"""Multiples up to which that is so (``line_rival.MULTIPLES``)."""
+TURNS = 4  # multiples up to which that is so (line_rival.MULTIPLES)
 
 
 def compute_line_width(o: Observation) -> float:
@@ -206,9 +196,9 @@ def _list_lines(parts: Sequence[_Part], o: Observation, level: Level) -> tuple[S
     return () if found and any(_has_lines(o, p) for p in parts) else tuple(found)
 
 
+# share of the power of a channel of the motion from which a line counts: by a smaller one an effect that is missing would show less
+# than a thirtieth of what it shows by the rest of the motion
 LOUD = 1e-3
-"""Share of the power of a channel of the motion from which a line counts: by a smaller one an effect that is missing would show less
-than a thirtieth of what it shows by the rest of the motion."""
 
 
 def _has_lines(o: Observation, p: _Part) -> bool:
@@ -362,8 +352,8 @@ def _level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
     return estimate_level(join(z), quantities, alternatives)
 
 
+# scales of a column within which its coefficient is expected where noises are compared: none is known
 VAGUE = 1e3
-"""Scales of a column within which its coefficient is expected where noises are compared: none is known."""
 
 
 def _compute_evidence(
@@ -382,20 +372,12 @@ def _compute_evidence(
     return found
 
 
-MEANS = 8192
-"""Most means of a flight."""
-
-PERIODS = 16.0
-"""In a segment, up to which means tell the noise."""
-
+MEANS = 8192  # most means of a flight
+PERIODS = 16.0  # in a segment, up to which means tell the noise
+# means a period, at least, of the noise that they tell: what is faster they show weaker, and something else in its place
 MEANS_A_PERIOD = 8.0
-"""Means a period, at least, of the noise that they tell: what is faster they show weaker, and something else in its place."""
-
-FULL = 0.9
-"""Share of its samples that must be valid for a mean to count: of fewer it has more white noise."""
-
-ENOUGH = 2
-"""Means for every column, at least."""
+FULL = 0.9  # share of its samples that must be valid for a mean to count: of fewer it has more white noise
+ENOUGH = 2  # means for every column, at least
 
 
 def average_residuals(at: LinearisationPoint, o: Observation, unwhitened: NoiseModel) -> list[Stretch] | None:

@@ -19,11 +19,8 @@ from ragg_runtime.io import Flight
 from ragg_runtime.model.record import Record, RecordedSeries, find_recorded, record
 from ragg_runtime.signals.fir import convolve
 
-BLOCKS = 24
-"""Segments of time of which each keeps an R factor of its own."""
-
-ROWS = 30000
-"""Most samples of a segment: a few hundred columns of them in float64 take less than 100 MB."""
+BLOCKS = 24  # segments of time of which each keeps an R factor of its own
+ROWS = 30000  # most samples of a segment: a few hundred columns of them in float64 take less than 100 MB
 
 
 def make_block_edges(samples: int) -> NDArray[np.intp]:
@@ -53,8 +50,8 @@ def spread(found: Sequence[slice], most: int) -> list[slice]:
 
 Array = NDArray[np.float64]
 
+# samples of a gap that are kept, four times as many as what is missing is interpolated from: noise is not followed over more
 LONGEST_GAP = 1024
-"""Samples of a gap that are kept, four times as many as what is missing is interpolated from: noise is not followed over more."""
 
 
 def observe_flights(

@@ -21,11 +21,10 @@ from ragg_runtime.signals.derivative import bridge_gaps
 
 Array = NDArray[np.float64]
 
+# parameters that no record can tell: k_VI enters only as k_VI K1, vartheta_x not at the paper's order
 UNOBSERVABLE = ("k_VI", "vartheta_x")
-"""Parameters that no record can tell: k_VI enters only as k_VI K1, vartheta_x not at the paper's order."""
-
+# width of the prior of an effect's parameter, in plausible sizes: what is missing may well surprise
 EFFECT_PRIOR = 10.0
-"""Width of the prior of an effect's parameter, in plausible sizes: what is missing may well surprise."""
 
 
 @dataclass(frozen=True)
@@ -178,8 +177,8 @@ def make_point(
     return LinearisationPoint(model, p, [c for c, _ in list_base_columns(model, instrument)], candidates)
 
 
+# samples at which a generated module is evaluated at a time: enough for what a call costs besides, few enough for the cache
 CACHED = 4096
-"""Samples at which a generated module is evaluated at a time: enough for what a call costs besides, few enough for the cache."""
 
 
 def linearise(at: LinearisationPoint, o: Observation) -> Array:

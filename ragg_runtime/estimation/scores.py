@@ -60,8 +60,8 @@ def demodulate_residual(e: Array, r: Record, k_ggi: float) -> Complex:
     return found
 
 
+# share of the samples under the low-pass that may be missing, as spikes are: it takes zeros in their place
 HOLES = 0.05
-"""Share of the samples under the low-pass that may be missing, as spikes are: it takes zeros in their place."""
 
 
 def find_whole(selected: NDArray[np.bool_], valid: NDArray[np.bool_], d: Demodulator) -> NDArray[np.bool_]:
@@ -78,8 +78,7 @@ def find_whole(selected: NDArray[np.bool_], valid: NDArray[np.bool_], d: Demodul
     return there
 
 
-TOGETHER = 1 << 20
-"""Samples of residuals that are demodulated together."""
+TOGETHER = 1 << 20  # samples of residuals that are demodulated together
 
 
 def measure_errors(
@@ -124,14 +123,11 @@ def pool_errors(errors: Sequence[Error], weights: Sequence[float]) -> Error:
         return Error(*(float(v) for v in np.sqrt(squares / np.sum(counted, axis=0))))
 
 
-STD_OF_MEDIAN = 1.4826
-"""Standard deviation of normal noise over the median of its absolute value."""
-
+STD_OF_MEDIAN = 1.4826  # standard deviation of normal noise over the median of its absolute value
+# Chi-square by which one explanation may be worse than another and still not be told apart (3 sigma)
 INDISTINGUISHABLE = 9.0
-"""Chi-square by which one explanation may be worse than another and still not be told apart (3 sigma)."""
-
+# difference of log evidence from which one explanation is distinguishable from another
 DISTINGUISHABLE = INDISTINGUISHABLE / 2
-"""Difference of log evidence from which one explanation is distinguishable from another."""
 
 
 def log_sf(chi2: float, rank: int, freedom: float = np.inf) -> float:

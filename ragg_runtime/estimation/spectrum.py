@@ -22,25 +22,15 @@ from ragg_runtime.signals.fir import GROUP, fill_gaps, filter_columns, find_nonz
 
 Array = NDArray[np.float64]
 
-LOWEST = 3
-"""First bin of a periodogram that is used."""
+LOWEST = 3  # first bin of a periodogram that is used
+BELOW = 4.0  # so far, in log frequency, the model goes on below it
+SMOOTH = 0.7  # half width in log frequency over which the fitted spectrum averages the periodogram
+KNOTS = 9  # coefficients of the log-spectrum: enough for red, white and a broad resonance, too few for a line
+LOOSE = 0.05  # how much a finer spline is held back where it is fine, over elsewhere
 
-BELOW = 4.0
-"""So far, in log frequency, the model goes on below it."""
-
-SMOOTH = 0.7
-"""Half width in log frequency over which the fitted spectrum averages the periodogram."""
-
-KNOTS = 9
-"""Coefficients of the log-spectrum: enough for red, white and a broad resonance, too few for a line."""
-
-LOOSE = 0.05
-"""How much a finer spline is held back where it is fine, over elsewhere."""
-
+# intervals of a finer spline between zero and the Nyquist frequency, taken where the spectrum plainly asks for it: what is left of a
+# derived angular acceleration stands in a narrow band near the top. Hundreds of bins lie in each, so that a line does not bend it.
 FINE = 12
-"""Intervals of a finer spline between zero and the Nyquist frequency, taken where the spectrum plainly asks for it:
-what is left of a derived angular acceleration stands in a narrow band near the top. Hundreds of bins lie in each, so
-that a line does not bend it."""
 
 
 @dataclass(frozen=True)
@@ -155,12 +145,11 @@ def estimate(
     return replace(model, log_psd=model.log_psd + np.log(level))
 
 
-FREE = 0.1
-"""How much they are held back: hardly."""
+FREE = 0.1  # how much they are held back: hardly
 
+# Hz between nodes of what is resolved about a multiple of the spin rate, and how many there are on either side: noise that modulates a
+# carrier is as far from it as the noise is slow, and as strong on both sides
 APART, HATS = 0.08, 2
-"""Hz between nodes of what is resolved about a multiple of the spin rate, and how many there are on either side: noise that modulates
-a carrier is as far from it as the noise is slow, and as strong on both sides."""
 
 
 def _list_humps(spin: float | None) -> list[tuple[float, ...]]:
@@ -235,8 +224,8 @@ def _fit_correction(
     return cost + X.shape[1] * float(np.log(len(f))), log_density
 
 
+# share of the noise that a fit must have left in a group of frequencies for them to tell its density
 LEFT = 0.1
-"""Share of the noise that a fit must have left in a group of frequencies for them to tell its density."""
 
 
 def _pool_periodograms(
@@ -271,15 +260,13 @@ def _pool_periodograms(
     return np.exp(log_f[informed] / n[informed]), power[informed] / free[informed], free[informed] / 1.5
 
 
+# density over that of its neighbourhood from which a bin is a line, no noise: of a day's million bins of noise the highest stands at
+# about 14 times the mean
 LINE = 25.0
-"""Density over that of its neighbourhood from which a bin is a line, no noise: of a day's million bins of noise the highest
-stands at about 14 times the mean."""
-
+# half width of the neighbourhood of a bin, as a share of its frequency: red noise changes little across it
 NEIGHBOURS = 0.2
-"""Half width of the neighbourhood of a bin, as a share of its frequency: red noise changes little across it."""
-
+# half width of the neighbourhood, bins: those lower than twice this are left as they are, red noise being steep there
 LEAST = 10
-"""Half width of the neighbourhood, bins: those lower than twice this are left as they are, red noise being steep there."""
 
 
 def cut_lines(p: Array) -> Array:
@@ -304,8 +291,8 @@ def cut_lines(p: Array) -> Array:
     return found
 
 
+# of red noise, from flicker to a random walk, each as likely as any other before a record is seen
 EXPONENTS = (1.0, 1.5, 2.0)
-"""Of red noise, from flicker to a random walk, each as likely as any other before a record is seen."""
 
 
 def _fit_red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]:
@@ -351,8 +338,7 @@ def compute_periodogram(x: Array, rate: float) -> tuple[Array, Array]:
     return f, density
 
 
-MOST_LINES = 8
-"""Most lines of a segment that are found at a time."""
+MOST_LINES = 8  # most lines of a segment that are found at a time
 
 
 @dataclass(frozen=True)
@@ -396,11 +382,8 @@ def find_lines(rest: Array, rate: float, without: tuple[float, float] | None) ->
     return found
 
 
-FILLED = 64
-"""Columns whose gaps are filled together: what is needed for one is made anew for each group."""
-
-ROUNDS = 6
-"""Most times that lines and jumps are looked for in what is left beside those before."""
+FILLED = 64  # columns whose gaps are filled together: what is needed for one is made anew for each group
+ROUNDS = 6  # most times that lines and jumps are looked for in what is left beside those before
 
 
 @dataclass(frozen=True)
@@ -497,11 +480,9 @@ def fit_columns(
     return left
 
 
+# least chi-square of a jump that the columns hide: above chance in 1,400 records of 640 s of red noise but for 6
 JUMP = 32.0
-"""Least chi-square of a jump that the columns hide: above chance in 1,400 records of 640 s of red noise but for 6."""
-
-INSTANTS = 96
-"""Instants among which it is sought, and again about the best of them, to the sample."""
+INSTANTS = 96  # instants among which it is sought, and again about the best of them, to the sample
 
 
 def _find_best_jump(left: ProjectedResidual, rate: float) -> Disturbance | None:
@@ -543,8 +524,8 @@ def _is_significant(
     return float(white @ white) > JUMP
 
 
+# bins of a periodogram for which the share that columns leave is computed; it is interpolated in between
 EVERY = 1024
-"""Bins of a periodogram for which the share that columns leave is computed; it is interpolated in between."""
 
 
 def _measure_taken(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> Array:
@@ -566,11 +547,9 @@ def _measure_taken(columns: Array, directions: Array, valid: NDArray[np.bool_]) 
     return np.asarray(np.interp(np.arange(n // 2 + 1) * (size / n), some, taken / np.sum(window**2)))
 
 
-ABSENT = 1e-11
-"""Relative size of a direction of (normalised) columns that is rounding rather than physics."""
-
+ABSENT = 1e-11  # relative size of a direction of (normalised) columns that is rounding rather than physics
+# share of the noise along a direction that is not worth counting: a hundred of them change no periodogram by 1e-5
 NOTHING = 1e-7
-"""Share of the noise along a direction that is not worth counting: a hundred of them change no periodogram by 1e-5."""
 
 
 def project_columns(columns: Array, valid: NDArray[np.bool_]) -> ProjectedResidual:

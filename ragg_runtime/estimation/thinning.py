@@ -34,22 +34,16 @@ from ragg_runtime.signals.fir import convolve
 
 Array = NDArray[np.float64]
 
-OPEN = 3.0
-"""Standard deviations of a voltage, as the sheet knows it, from zero up to which the side is open."""
-
-LATEST = 3.0
-"""Times the prior's width of a delay by which motion may be late."""
-
+OPEN = 3.0  # standard deviations of a voltage, as the sheet knows it, from zero up to which the side is open
+LATEST = 3.0  # times the prior's width of a delay by which motion may be late
+# samples at either end of a flight whose derivative has 6 and 30 times the error of one inside (differentiate)
 EXTRAPOLATED = 2
-"""Samples at either end of a flight whose derivative has 6 and 30 times the error of one inside (``differentiate``)."""
 
+# standard deviations of the residual beyond which one of them is left out with its like: four samples of 4 Hz left 8,289 of a
+# chi-square of 182,000 beside the right effect, which leaves 860 without them
 MISFIT = 5.0
-"""Standard deviations of the residual beyond which one of them is left out with its like: four samples of 4 Hz left 8,289 of a chi-square
-of 182,000 beside the right effect, which leaves 860 without them.
-"""
-
+# share of the samples beyond which none is left out: a sheet that knows so little of the switch cannot help
 MOST_LEFT_OUT = 0.2
-"""Share of the samples beyond which none is left out: a sheet that knows so little of the switch cannot help."""
 
 
 def leave_out_uncertain(
@@ -126,34 +120,23 @@ def _open(model: Model, instrument: Instrument, o: Observation) -> NDArray[np.bo
     return found
 
 
+# one in so many samples may be kept; of one in two the whole record's residuals cost what the rest spares
 EVERY = (12, 10, 8, 6, 5, 4, 3)
-"""One in so many samples may be kept; of one in two the whole record's residuals cost what the rest spares."""
-
+# edges of the low-pass over half the rate of the samples that are kept: what folds falls between them
 PASSED, STOPPED = 0.8, 1.2
-"""Edges of the low-pass over half the rate of the samples that are kept: what folds falls between them."""
-
+# of the low-pass, dB: of the output, a million times the noise, what folds is a tenth of that and no motion
 ATTENUATION = 100.0
-"""Of the low-pass, dB: of the output, a million times the noise, what folds is a tenth of that and no motion."""
-
+# Hz, of the samples that are kept, and of what passes beyond the fourth multiple of the spin rate: the motion about it
 LEAST_RATE, ABOVE = 8.0, 2.0
-"""Hz, of the samples that are kept, and of what passes beyond the fourth multiple of the spin rate: the motion about it."""
 
+# greatest relative difference between a column along the thinned motion and the thinned column: of the model's parameters, and of
+# candidates, which are derived into the model once they are found
 ALIKE, NEAR = 1e-3, 0.2
-"""Greatest relative difference between a column along the thinned motion and the thinned column: of the model's parameters, and of
-candidates, which are derived into the model once they are found.
-"""
-
-EXCERPTS, EXCERPT = 3, 12000
-"""Segments on whose first samples the columns are compared, and most of these."""
-
-SHORT = 8
-"""Lengths of the low-pass that a segment must have at least."""
-
+EXCERPTS, EXCERPT = 3, 12000  # segments on whose first samples the columns are compared, and most of these
+SHORT = 8  # lengths of the low-pass that a segment must have at least
+# share of the low-pass under which samples may be missing, as spikes are: straight lines then stand in their place
 MISSING = 0.25
-"""Share of the low-pass under which samples may be missing, as spikes are: straight lines then stand in their place."""
-
-LOST = 0.05
-"""Share of the samples that may be lost beside those that are missing."""
+LOST = 0.05  # share of the samples that may be lost beside those that are missing
 
 
 def thin_observations(

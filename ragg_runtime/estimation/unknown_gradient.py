@@ -33,19 +33,16 @@ from ragg_runtime.signals.fir import Floats
 
 Array = NDArray[np.float64]
 
-KNOT_SECONDS = 10.0
-"""Distance of the knots of the splines."""
+KNOT_SECONDS = 10.0  # distance of the knots of the splines
+WINDOW_SECONDS = 300.0  # length of a window of time with splines of its own
 
-WINDOW_SECONDS = 300.0
-"""Length of a window of time with splines of its own."""
-
+# time before a window in which its splines begin: longer ago, a whitening filter has no memory of a signal that oscillates at twice
+# the spin rate
 LEAD_SECONDS = 100.0
-"""Time before a window in which its splines begin: longer ago, a whitening filter has no memory of a signal
-that oscillates at twice the spin rate."""
 
 
+# frequency, Hz, up to which the splines follow a signal, and so take noise away: half a period a knot, and a margin
 TAKEN = 0.6 / KNOT_SECONDS
-"""Frequency, Hz, up to which the splines follow a signal, and so take noise away: half a period a knot, and a margin."""
 
 
 @dataclass(frozen=True)
@@ -174,8 +171,8 @@ def take_out(e: Array, found: Sequence[Window], valid: NDArray[np.bool_]) -> Arr
 
 Complex = NDArray[np.complex128]
 
+# times that holes are filled with the gradient found: what remains is the share of the holes to this power + 1
 BRIDGES = 2
-"""Times that holes are filled with the gradient found: what remains is the share of the holes to this power + 1."""
 
 
 @dataclass(frozen=True)

@@ -183,8 +183,7 @@ def factor_blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
     return tuple(r_factors.get(b, nothing) for b in range(BLOCKS)), totals
 
 
-DEPENDENT = 1e-6
-"""Ratio of eigenvalues of inner products in single precision below which they are rounding."""
+DEPENDENT = 1e-6  # ratio of eigenvalues of inner products in single precision below which they are rounding
 
 
 @dataclass(frozen=True)
