@@ -104,27 +104,13 @@ def is_demodulable(rate: float) -> bool:
 
 @dataclass(frozen=True)
 class Demodulator:
-    """A low-pass of the mixed output: y[k] = sum over j of taps[j] x[k + ahead - j].
+    """A low-pass of the mixed output: y[k] = sum over j of taps[j] x[k + ahead - j]."""
 
-    Attributes
-    ----------
-    name
-        As on the command line.
-    rate
-        Hz.
-    taps
-        (n,): the kernel; its sum is 1.
-    ahead
-        Samples of the future that a value needs.
-    description
-        In words, of those that may be asked for by name.
-    """
-
-    name: str
-    rate: float
-    taps: Array
-    ahead: int
-    description: str = ""
+    name: str  # as on the command line
+    rate: float  # Hz
+    taps: Array  # (n,): the kernel; its sum is 1
+    ahead: int  # samples of the future that a value needs
+    description: str = ""  # in words, of those that may be asked for by name
 
     @cached_property
     def latency(self) -> float:
@@ -261,21 +247,13 @@ ILL = 1e-6
 
 @dataclass(frozen=True)
 class Tensor:
-    """A tensor over time.
+    """A tensor over time."""
 
-    Attributes
-    ----------
-    gamma
-        (6, N), components in the order of :data:`COMPONENTS`, in the unit of the channels; without trace.
-    closure
-        (checks, N): combinations of the channels that vanish for any gradient, in units of their standard deviation.
-    std
-        (6,): standard deviation of the components, by those of the channels.
-    """
-
-    gamma: Array
+    gamma: Array  # (6, N), components in the order of COMPONENTS, in the unit of the channels; without trace
+    # (checks, N): combinations of the channels that vanish for any gradient, each normalised so that channels with errors of the size of
+    # std give it a standard deviation of 1
     closure: Array
-    std: Array
+    std: Array  # (6,): standard deviation of the components for the given ones of the channels
 
     @property
     def quality(self) -> float:
