@@ -21,8 +21,6 @@ import pyarrow.parquet as pq
 
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import file_digest, open_regular, replacing
-from ragg_runtime.instrument.layout import PAPER
-from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.arrays import (
     convert_arrow,
@@ -159,14 +157,7 @@ def read_recordings(source: Any, mapping: Mapped | None = None, name: str = "fli
 
 
 def read_flights(
-    source: Any,
-    g0: float,
-    *,
-    need_output: bool = True,
-    accelerometers: Accelerometers = PAPER,
-    mapping: Mapped | None = None,
-    leave: frozenset[str] = frozenset(),
-    name: str = "flight",
+    source: Any, g0: float, *, mapping: Mapped | None = None, name: str = "flight", **options: Any
 ) -> list[Flight]:
     """The flights in a file or in memory, in SI, one for each line; UserError if they are no uniformly sampled ones.
 
@@ -178,16 +169,12 @@ def read_flights(
         A path (see :data:`FORMATS`), a pandas DataFrame, an xarray Dataset, or a dict of arrays (n,).
     g0
         The g of the file's units, m/s^2.
-    need_output
-        False lets a record of motion alone pass.
-    accelerometers
-        The instrument's.
     mapping
         What the columns are, where the file has names of its own.
-    leave
-        Channels that are left aside.
     name
         Of a flight in memory.
+    options
+        Those of :func:`.assemble.make_flight`.
     """
     path = Path(source) if isinstance(source, str | Path) else None
     made = read_recordings(source, mapping, name)
@@ -195,8 +182,7 @@ def read_flights(
     title = name if path is None else flight_name(path)
     flights = []
     for r in made:
-        x = make_flight(r, g0, need_output=need_output, accelerometers=accelerometers, leave=leave)
-        own = f"{title}:{r.line}" if len(made) > 1 else title
+        x, own = make_flight(r, g0, **options), f"{title}:{r.line}" if len(made) > 1 else title
         flights.append(replace(x, name=own, path=path, digest=digest or content(x)))
     return flights
 
@@ -260,15 +246,11 @@ def _to_arrow(table: DataTable) -> pa.Table:
 
 
 def convert(source: Path, target: Path, mapping: Mapped | None = None) -> dict[str, Any]:
-    """Write the flights of one file to another, in the format of its ending; values as they are.
+    """Write the flights of one file to another, in the format of its ending; values as they are. What was done, and ``notes`` of what
+    was left out: the keys are in docs/reference/json.toml.
 
     Instants become seconds since the first of them, of every line its own: the angle of a disc without an encoder counts
     from there, in the new file and in what is cut out of it.
-
-    Returns
-    -------
-    dict
-        ``output``, ``lines`` (1 where the file names none), ``rows``, ``columns``, and ``notes``: what was left out, in sentences.
     """
     if source.resolve() == target.resolve():
         raise UserError("a file cannot be converted into itself", where=source, remedy="name another file")
@@ -306,28 +288,9 @@ def write_instant(instant: datetime) -> str:
 
 
 def describe_flight(path: Path | str, mapping: Mapped | None = None) -> dict[str, Any]:
-    """What a flight file holds.
+    """What a flight file holds, as ``ragg info --json`` writes it (its keys: docs/reference/json.toml); UserError if it has no table.
 
-    Parameters
-    ----------
-    path
-        The file.
-    mapping
-        What its columns are, where it has names of its own.
-
-    Returns
-    -------
-    dict
-        ``path``, ``sha256``, ``format``, ``bytes``, and ``records``, one for each line. Of a record: ``name``, ``line`` (``None``: the
-        file has only one record), ``rows``; ``start_s``, ``duration_s``, ``rate_Hz`` (``None`` where there is no uniform time), ``origin``
-        (the instant at which time is 0, ISO 8601, or ``None``); ``gap_count``, ``missing`` samples in all gaps, ``gaps`` (the longest:
-        from_s, to_s, samples); ``columns`` (name, unit in the file, samples with and without a value, minimum, maximum and mean in that
-        unit); ``notes``: what was assumed, left out or looks odd; ``refused``: why the record cannot be used as it is, or ``None``.
-
-    Raises
-    ------
-    UserError
-        If the file cannot be read, or holds no table.
+    Of a record that cannot be used as it is ``refused`` says why.
     """
     path = Path(path)
     made = read_recordings(path, mapping)
