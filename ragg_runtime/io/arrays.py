@@ -70,14 +70,20 @@ def make_tables(tree: Tree, place: str = "") -> list[DataTable]:
         if isinstance(item, Mapping):
             branches[name] = item
         elif parts and all(isinstance(p, Mapping) for p in parts):  # an array of structures
-            branches |= {f"{name}_{k}": p for k, p in enumerate(parts, 1)}
+            single = len(parts) > 1 and not any(np.ndim(v) for p in parts for v in p.values())
+            rows = {n: [p.get(n) for p in parts] for n in parts[0]}
+            branches |= {name: rows} if single else {f"{name}_{k}": p for k, p in enumerate(parts, 1)}
+        elif (
+            x is not None and parts and x.ndim == 2 and all(isinstance(t, str) for t in x[0])
+        ):  # cells below their titles
+            branches[name] = dict(zip(x[0], x[1:].T, strict=True))
         elif not isinstance(item, str):
             arrays.append((name, *item) if isinstance(item, tuple) else (name, item))
     units, line, index = branches.pop("units", {}), tree.get("line"), tree.get("index_name", INDEX)
     title = write_cell(line) if isinstance(line, str | int | float) else place.rpartition("/")[2]
     own = make_table(arrays, read_frame_units(units), line=title, part=place, index=read_heading(index)[0])
     apart = []
-    for t in (t for name, branch in branches.items() for t in make_tables(branch, f"{place}/{name}")):
+    for t in (t for n, x in branches.items() for t in make_tables({"units": units, **x}, f"{place}/{n}")):
         whole = {*SPECIFIC_FORCE, *ANGULAR_RATE} <= {*own.names} and "[" not in t.part
         clocks = [{"time", "t"} & {n.casefold() for n in x.names} for x in (own, t)]
         if len(t) != len(own) or {*own.names} & {*t.names} or whole or all(clocks):
@@ -164,9 +170,11 @@ def read_array(x: Any) -> NDArray[Any]:
     if isinstance(x, np.ma.MaskedArray) and x.dtype.kind in "biuf":
         return np.where(np.ma.getmaskarray(x), np.nan, x.data)
     try:
-        return np.asarray(x)
+        found = np.asarray(x)
     except ValueError:  # parts of several lengths
-        return np.asarray(x, dtype=object)
+        found = np.asarray(x, dtype=object)
+    letters = found.dtype == "S1" and found.ndim == 2  # texts of NetCDF 3
+    return np.array([b"".join(t) for t in found.tolist()]) if letters else found
 
 
 def _is_narrow(shape: tuple[int, ...]) -> bool:

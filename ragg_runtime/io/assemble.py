@@ -83,7 +83,7 @@ def make_flight(
     placed = {c: _place(si.pop(c), grid) for c in [*si]}  # of a day at 100 Hz each is 70 MB
     _drop_empty(placed, notes, made.place)
     if need_output:
-        _require_output(made, ("time", *placed), accelerometers)
+        _require_output(replace(made, notes=tuple(notes)), ("time", *placed), accelerometers)
     outputs = {c: placed.pop(c) for c in (*accelerometers.columns, *DEMODULATED) if c in placed}
     _interpolate_auxiliaries(placed, si_units, grid, notes)
     notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
@@ -318,10 +318,10 @@ def _derive_outputs(outputs: dict[str, Array], notes: list[str], a: Acceleromete
             continue
         there = np.isfinite(sum_) & np.isfinite(outputs[o.name])
         own = outputs[o.name][there]
-        difference, size = np.linalg.norm(sum_[there] - own), np.linalg.norm(own)
+        difference, size = (float(np.median(np.abs(x))) if len(x) else 0.0 for x in (sum_[there] - own, own))
         if difference > 1e-3 * size:
             notes.append(
-                f"{o.name} differs from {formula} by {100 * difference / max(size, difference / 10):.2g} % rms: "
+                f"{o.name} differs from {formula} by {100 * difference / max(size, difference / 10):.2g} %: "
                 "check the order and the signs of the voltages"
             )
 

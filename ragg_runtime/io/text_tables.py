@@ -226,15 +226,19 @@ def _read_text(path: Path) -> tuple[bytes, list[str]]:
             data = gzip.decompress(data)
         if data.startswith((b"\xff\xfe", b"\xfe\xff")):
             return data.decode("utf-16").encode(), []
-        if data[1:4:2] == b"\0\0":  # every second byte of plain text, without the mark
-            return data.decode("utf-16-le").encode(), []
+        for first, order in ((1, "le"), (0, "be")):  # every second byte of plain text, without the mark
+            if data[first:4:2] == b"\0\0":
+                return data.decode(f"utf-16-{order}").encode(), []
         data = data.removeprefix(b"\xef\xbb\xbf").rstrip(b"\0")  # recorders reserve room ahead
-        if b"\0" in data:
-            raise UnicodeError("bytes of zero: another format, or a copy that failed")
+        if (zero := data.find(b"\0")) >= 0:
+            line = data.count(b"\n", 0, zero) + 1
+            raise UnicodeError(f"bytes of zero in line {line}: another format, or a copy that failed")
         try:
             data.decode()
         except UnicodeDecodeError:
-            return data.decode("cp1252").encode(), ["the file is not UTF-8; read as Windows text (cp1252)"]
+            return data.decode("cp1252", "replace").encode(), [
+                "the file is not UTF-8; read as Windows text (cp1252)"
+            ]
     except (OSError, EOFError, zlib.error, UnicodeError) as error:
         raise UserError(
             "the file is damaged, cut off, or not text",

@@ -57,6 +57,7 @@ def same(found: Any, instants: bool = False) -> None:
 
 
 PLAIN = ",".join(HEADER)
+REST = ";" + ";".join(HEADER[1:])
 CSV = {
     "a comma behind every line": text(PLAIN + ",", [[*r, ""] for r in rows()]),
     "a comma behind every row": text(PLAIN, [[*r, ""] for r in rows()]),
@@ -77,10 +78,9 @@ CSV = {
     "the minus of print": text(PLAIN, [[str(c).replace("-", "\u2212") for c in r] for r in rows()]),
     "line ends of a Macintosh": text(PLAIN, rows(), end="\r"),
     "another alphabet": text(PLAIN + ",T [°C]", [[*r, 1.0] for r in rows()]).encode("cp1252"),
-    "another alphabet late": text(PLAIN + ",remark", [[*r, "böig" if k == N - 1 else "ruhig"] for k, r in enumerate(rows())])
-    .encode("cp1252"),
+    "another alphabet late": text(PLAIN + ",remark", [*([*r, "ruhig"] for r in rows()[:-1]), [*rows()[-1], "böig"]]).encode("cp1252"),
     "UTF-16": text(PLAIN, rows()).encode("utf-16"),
-    "UTF-16 without its mark": text(PLAIN, rows()).encode("utf-16-le"),
+    **{f"{order} without its mark": text(PLAIN, rows()).encode(order) for order in ("utf-16-le", "utf-16-be")},
     "a remark in one row": text(PLAIN + ",remark", [[*r, "1" if k < 50 else "x"] for k, r in enumerate(rows())]),
     "an index that is time": text("," + PLAIN.partition(",")[2], rows([f"0 days 00:00:{t:09.6f}" for t in VALUES["time"]])),
     "remarks among the rows and at the end": text(PLAIN, [*rows()[:9], ["# marker 5"], *rows()[9:], ["end", "of", "record"]]),
@@ -88,10 +88,7 @@ CSV = {
     "joined from two": text(PLAIN, [*rows()[:9], [PLAIN], *rows()[9:]]),
     "thousands": text("time [ms]," + PLAIN.partition(",")[2], rows([f'"{1000 * t:,.1f}"' for t in VALUES["time"]])),
     "points between thousands": text(
-        "time [ms];" + ";".join(HEADER[1:]),
-        rows([f"{1000 * t:,.1f}".translate(str.maketrans(",.", ".,")) for t in VALUES["time"]]),
-        ";",
-        decimal=",",
+        "time [ms]" + REST, rows([f"{1000 * t:,.1f}".translate({44: ".", 46: ","}) for t in VALUES["time"]]), ";", decimal=","
     ),
     "over midnight": text(PLAIN, rows([(86398 + t) % 86400 for t in VALUES["time"]])),
     "blanks, ragged": text("  ".join(HEADER), [[" " * (k % 3) + str(c) for c in r] for k, r in enumerate(rows())], "  "),
@@ -113,23 +110,17 @@ CSV = {
         ],
         ";",
     ).replace(".", ","),
-    "numbers before the header": text(
-        "Version\t3\nSamples" + 7 * "\t60" + "\nX0" + 7 * "\t0.0" + "\nnames\tx\n" + "\t".join(HEADER), rows(), "\t"
-    ),
+    "numbers before the header": text("V\t3\nn" + 7 * "\t60" + "\nX0" + 7 * "\t0.0" + "\nnames\tx\n" + "\t".join(HEADER), rows(), "\t"),
     "a row that is called units": text("," + ",".join(UNITS) + "\nUnits," + ",".join(UNITS.values()), [["data", *r] for r in rows()]),
     "units alone below the names": text("time,a,,,omega,,,G_out\n(s),x (g),y (g),z (g),x (deg/h),y (deg/h),z (deg/h),(V)", rows()),
     "units in other brackets": text(PLAIN.replace("[", "{").replace("]", "}"), rows()),
-    "blanks between thousands": text(
-        "time [ms];" + ";".join(HEADER[1:]), rows([f"{1000 * t:,.1f}".replace(",", "\u202f") for t in VALUES["time"]]), ";"
-    ),
-    "commas between thousands below a header": text(
-        "time [ms];" + ";".join(HEADER[1:]), rows([f"{1000 * t + 5000:,.1f}" for t in VALUES["time"]]), ";"
-    ),
+    "blanks between thousands": text("time [ms]" + REST, rows([f"{1000 * t:,.1f}".replace(",", "\u202f") for t in VALUES["time"]]), ";"),
+    "commas between thousands below a header": text("time [ms]" + REST, rows([f"{1000 * t + 5000:,.1f}" for t in VALUES["time"]]), ";"),
     "commas between thousands alone": text(
         "time [us]," + PLAIN.partition(",")[2], rows([f'"{1e6 * t + 1e6:,.0f}"' for t in VALUES["time"]])
     ),
     "points between thousands alone": text(
-        "time [us];" + ";".join(HEADER[1:]), rows([f"{1e6 * t + 1e6:,.0f}".replace(",", ".") for t in VALUES["time"]]), ";", decimal=","
+        "time [us]" + REST, rows([f"{1e6 * t + 1e6:,.0f}".replace(",", ".") for t in VALUES["time"]]), ";", decimal=","
     ),
     "room reserved ahead": text(PLAIN, rows()) + 300 * "\0",
     "row numbers in front, as R writes them": text(PLAIN, [[f'"{k + 1}"', *r] for k, r in enumerate(rows())]),
@@ -199,13 +190,15 @@ def test_dates_as_people_write_them(tmp_path: Path, kind: str) -> None:
 
 
 def test_a_second_of_almost_60_is_no_leap_second(tmp_path: Path) -> None:
-    """Sums of floats: six columns, a clock in digits."""
+    """Sums of floats: six columns, a clock in digits; and texts in letters, as NetCDF 3 has them."""
     second = (58 + VALUES["time"]) % 60
     second[32] = 60 - 1e-10
     minute = np.r_[np.zeros(33), np.ones(N - 33)]
     parts = {"year": 2026.0, "month": 3.0, "day": 1.0, "hour": 12.0, "minute": minute, "second": second}
     table = {h: v for h, v in zip(HEADER[1:], [*VALUES.values()][1:], strict=True)}  # noqa: C416
-    same(read_flight({n: np.broadcast_to(v, N) for n, v in parts.items()} | table, G0), True)
+    letters = np.array([[*t] for t in stamps("2026-03-01 10:00:00", "%Y-%m-%dT%H:%M:%S.%f")], "S1")
+    for time in ({n: np.broadcast_to(v, N) for n, v in parts.items()}, {"time": letters}):
+        same(read_flight(time | table, G0), True)
     columns = "".join(f'{n} = "{n}"\n' for n in UNITS if n != "time")
     mapping = parse_mapping(f'[time]\ncolumn = "t"\nformat = "clock"\n[columns]\n{columns}', tmp_path)
     same(read_flight({"t": 120000 + 100 * minute + second} | table, G0, mapping=mapping), True)
@@ -293,19 +286,23 @@ def test_missing_value_codes(values: np.ndarray, codes: list[float]) -> None:
     assert sorted(find_codes(values)) == sorted(codes)
 
 
-@pytest.mark.parametrize("ending", [".h5", ".mat", ".parquet"])
-def test_vectors_and_channels_apart(tmp_path: Path, ending: str) -> None:
-    """A group for each channel; a matrix beside its names, as MATLAB's importdata makes it; vectors in one column."""
-    path = tmp_path / f"x{ending}"
-    if ending == ".h5":
+@pytest.mark.parametrize("name", ["x.h5", "x.mat", "rows.mat", "cells.mat", "x.parquet"])
+def test_vectors_and_channels_apart(tmp_path: Path, name: str) -> None:
+    """A group for each channel; a matrix beside its names, structures, cells of MATLAB; vectors in one column."""
+    path = tmp_path / name
+    if name == "x.h5":
         with h5py.File(path, "w") as file:
             for n in [*UNITS][1:]:
                 file[f"{n}/time"], file[f"{n}/value"] = VALUES["time"], VALUES[n]
                 file[f"{n}/time"].attrs["units"], file[f"{n}/value"].attrs["units"] = "s", UNITS[n]
-    elif ending == ".mat":
-        names = np.array(HEADER, object)
-        data = np.stack([*VALUES.values()], 1)
-        savemat(path, {"x": {"data": data, "colheaders": names, "textdata": names}})
+    elif path.suffix == ".mat":
+        names, data = np.array(HEADER, object), np.stack([*VALUES.values()], 1)
+        whole = {
+            "x": {"data": data, "colheaders": names, "textdata": names},
+            "rows": [dict(zip(UNITS, r, strict=True)) for r in rows()],
+            "cells": np.array([HEADER, *rows()], object),
+        }
+        savemat(path, {"data": whole[path.stem], "units": UNITS})
     else:
         a, omega = (np.stack([VALUES[f"{n}_{k}"] for k in "xyz"], 1) for n in ("a", "omega"))
         one = {
