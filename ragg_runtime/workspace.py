@@ -87,7 +87,7 @@ def new(path: Path | str, source: Path | str | None = None, mapping: Path | str 
         If the sheet or the mapping is invalid, or the directory cannot be made.
     """
     mapping_toml = None if mapping is None else mapping_text(Path(mapping))
-    text = _example_text() if source is None else read_text(Path(source))
+    text = _read_example() if source is None else read_text(Path(source))
     completed = with_full_kinematics(text)
     instrument = parse_instrument(completed, Path(source) if source else None)
     directory = create_model_dir(
@@ -126,10 +126,10 @@ def load_state(directory: ModelDir) -> Loaded:
 
 def example() -> Instrument:
     """The instrument of the packaged test sheet."""
-    return parse_instrument(_example_text())
+    return parse_instrument(_read_example())
 
 
-def _example_text() -> str:
+def _read_example() -> str:
     return resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
 
 

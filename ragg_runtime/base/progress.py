@@ -92,7 +92,7 @@ def split_range(length: int, longest: int) -> list[slice]:
 
 
 @functools.cache
-def _libraries() -> threadpoolctl.ThreadpoolController:
+def _find_libraries() -> threadpoolctl.ThreadpoolController:
     """Those of linear algebra; to look for them takes as long as a small fit."""
     import scipy.linalg  # noqa: F401  (brings a BLAS of its own, which must be there to be limited)
     import threadpoolctl
@@ -105,7 +105,7 @@ def one_thread(function: Callable[P, R]) -> Callable[P, R]:
 
     @functools.wraps(function)
     def wrapped(*args: P.args, **kwargs: P.kwargs) -> R:
-        with _libraries().limit(limits=1):
+        with _find_libraries().limit(limits=1):
             return function(*args, **kwargs)
 
     return wrapped

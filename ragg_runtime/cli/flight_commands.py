@@ -23,13 +23,13 @@ from ragg_runtime.cli.shared import (
     frozen_option,
     limit_option,
     load,
+    make_source,
     mapping_option,
     model_argument,
     next_command,
     output_option,
     read,
     series_option,
-    source_of,
     working,
 )
 from ragg_runtime.wording import describe, describe_other
@@ -59,7 +59,7 @@ def compare(
     """Show how far the model is from flights, and where."""
     m = load(model_dir)
     frozen = frozen or calibration == "frozen"
-    odd = _calibration_notes(m) if frozen else []
+    odd = _list_oddities(m) if frozen else []
     records = read(m, flights, mapping)
     names = [x.name for x in records]
     command, again = (next_command(v, model_dir, records, mapping) for v in ("diagnose", "calibrate"))
@@ -72,11 +72,11 @@ def compare(
     else:
         sections = describe.describe_held(result, names, command, again)
     title = f"{m.name}, frozen, and {', '.join(names)}" if frozen else ""
-    source = source_of(m, records, further=odd, title=title)
+    source = make_source(m, records, further=odd, title=title)
     conclude(result, sections, source, lambda: pages.write_comparison(c, source, saved))
 
 
-def _calibration_notes(m: Loaded) -> list[str]:
+def _list_oddities(m: Loaded) -> list[str]:
     """What is odd about the saved calibration, also on stderr."""
     odd = api.saved_calibration(m).find_oddities(m.model, m.instrument)
     for note in odd:
@@ -99,7 +99,7 @@ def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], ma
     result = d.as_json()
     command = next_command("add", model_dir, records, mapping, d.found[0]) if d.found else ""
     sections = describe.describe_diagnosis(result, command)
-    source = source_of(m, records)
+    source = make_source(m, records)
     conclude(result, sections, source, lambda: pages.write_diagnosis(d, source))
 
 
@@ -128,7 +128,7 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
 
         data = result.as_json()
         sections = describe.describe_addition(data, [e.id for e in result.loaded.model.effects], check, use)
-        source = source_of(result.loaded, records, before=m, title=f"{m.name}: {effect} added")
+        source = make_source(result.loaded, records, before=m, title=f"{m.name}: {effect} added")
         conclude(data, sections, source, page)
 
     with working(f"deriving the model with {effect}{', calibrating' if flights else ''}", "add", records):
@@ -190,7 +190,7 @@ def next_motion(
         write_text(Path(run_sheet), next_flight.write_run_sheet(design))
     write_flight(design.motion(), Path(output))
     sections = describe_other.describe_next_motion(design.as_json(), output)
-    source = source_of(m, records)
+    source = make_source(m, records)
     page = lambda: pages.write_info(sections, [design.motion()], source, "The next motion")  # noqa: E731
     conclude(design.as_json(), sections, source, page)
 
@@ -220,7 +220,7 @@ def calibrate(
     use = f"{next_command('compensate', model_dir, records)} -o compensated.csv --calibration "
     command = f"{use}{'smoothed' if drifts else 'frozen'}" if drifts or c.saved else ""
     sections = describe_other.describe_calibration(result, [x.name for x in records], command)
-    source = source_of(c.loaded, records)
+    source = make_source(c.loaded, records)
     conclude(result, sections, source, lambda: pages.write_calibration(sections, c.calibrated.fitted, source))
 
 
@@ -278,7 +278,7 @@ def compensate(
         )
     m = load(model_dir)
     uses_saved = calibration == "frozen" or (calibration == "online" and m.directory.calibration is not None)
-    odd = _calibration_notes(m) if uses_saved else []
+    odd = _list_oddities(m) if uses_saved else []
     records = read(m, flights, mapping, gradient=False)
     with working("compensating", "compare", records):
         c = api.compensate(
@@ -287,7 +287,7 @@ def compensate(
     result = c.as_json()
     say = describe_other.describe_online if calibration == "online" else describe_other.describe_compensation
     sections = say(result, output)
-    source = source_of(m, records, further=[*result.get("notes", ()), *odd])
+    source = make_source(m, records, further=[*result.get("notes", ()), *odd])
     page = lambda: pages.write_compensation(sections, c.series, source)  # noqa: E731
     conclude(result | {"output": str(out)}, sections, source, page)
 

@@ -92,7 +92,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         click.echo("ragg: there is not enough memory; nothing was changed", err=True)
         sys.exit(2)
     except OSError as error:
-        click.echo(f"ragg: {refusal(error)}", err=True)
+        click.echo(f"ragg: {describe_refusal(error)}", err=True)
         sys.exit(2)
     except Exception as error:
         missing = missing_package(error)
@@ -104,7 +104,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         sys.exit(1)
 
 
-def refusal(error: OSError) -> str:
+def describe_refusal(error: OSError) -> str:
     """What the system refused, and where, in one line."""
     try:
         os.getcwd()

@@ -22,12 +22,12 @@ from ragg_runtime.cli.shared import (
     command_line,
     conclude,
     load,
+    make_source,
     mapping_option,
     model_argument,
     output_option,
     series_option,
     show_notes,
-    source_of,
 )
 from ragg_runtime.wording import describe, describe_other, numbers
 from ragg_runtime.wording.sections import Section, render_text
@@ -79,7 +79,7 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
         f"{place}: created; {describe.write_effects(effects)}",
         f"Edit {place}/model.toml, then: ragg compare {place} FLIGHT",
     )
-    conclude({"model": place, "effects": effects}, sections, source_of(m))
+    conclude({"model": place, "effects": effects}, sections, make_source(m))
 
 
 @click.command(cls=Command)
@@ -105,7 +105,7 @@ def remove(model_dir: Path, effect: str) -> None:
     def tell(m: Loaded) -> None:
         ids = [e.id for e in m.model.effects]
         sections = describe.say_plainly(f"removed {effect}; {describe.write_effects(ids)}")
-        conclude({"effect": effect, "effects": ids}, sections, source_of(m, before=before))
+        conclude({"effect": effect, "effects": ids}, sections, make_source(m, before=before))
 
     api.remove(before, effect, tell)
 
@@ -179,7 +179,7 @@ def simulate(
     io.write_flight(flight, output)
     text = f"{one_line(output)}: {len(flight.time)} samples at {flight.rate:g} Hz"
     result = {"output": output, "samples": len(flight.time), "rate_Hz": flight.rate, "effects": list(hidden)}
-    conclude(result, describe.say_plainly(text), source_of(m))
+    conclude(result, describe.say_plainly(text), make_source(m))
 
 
 @click.command(cls=Command, json=False)

@@ -177,7 +177,7 @@ def working(text: str, command: str, flights: Sequence[Flight]) -> Iterator[None
         yield
 
 
-def source_of(m: Loaded, flights: Sequence[Flight] = (), **fields: Any) -> Source:
+def make_source(m: Loaded, flights: Sequence[Flight] = (), **fields: Any) -> Source:
     """What the command that runs makes its result from; ``fields``: further fields."""
     return api.Source(command_line(), m, flights, **fields)
 
@@ -217,11 +217,11 @@ def conclude(
             click.echo(text)
             return
         write_text(Path(document), text + "\n")
-    noted = notes_of([] if source is None else source.flights)
+    noted = list_notes([] if source is None else source.flights)
     click.echo(render_text([*sections, *noted], verbose=bool(find_wanted("verbose"))))
 
 
-def notes_of(flights: Sequence[Flight]) -> list[Section]:
+def list_notes(flights: Sequence[Flight]) -> list[Section]:
     """What the reader did to flights, every note once, with the flights that it is about; only their number after the first commands."""
     about = group_notes((x.name, str(note)) for x in flights for note in x.notes)
     lines = []

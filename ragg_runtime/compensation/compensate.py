@@ -52,7 +52,7 @@ from ragg_runtime.io.files import write_tables
 from ragg_runtime.io.record import GRADIENT, distinct
 from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.model.model import Model, find_unit_factor, make_vector, scale_factor
-from ragg_runtime.signals.demodulators import COMPONENTS, find_demodulator, tensor
+from ragg_runtime.signals.demodulators import COMPONENTS, find_demodulator, solve_tensor
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.wording import describe_other
 from ragg_runtime.wording.sections import render_notebook
@@ -108,11 +108,11 @@ class Compensation:
         """
         parts = [_trim_ends(s) for s in self.series]
         joined = {n: np.concatenate([s[n] for s in parts]) for n in parts[0]}
-        columns = [DataColumn(n, _unit_of(n), _round(n, joined)) for n in joined]
+        columns = [DataColumn(n, _find_unit(n), _round(n, joined)) for n in joined]
         write_tables(Path(path), [DataTable(tuple(columns))])
 
 
-def _unit_of(column: str) -> str:
+def _find_unit(column: str) -> str:
     if column == "time":
         return "s"
     return "1" if column == "flight" or column.startswith(("quality", "closure")) else "Eo"
@@ -433,7 +433,7 @@ def make_columns(
     discs = [instrument.layout.discs[c.observation.output.disc] for c in channels]
     noise = np.array([s for c in channels for s in c.noise_std])
     try:
-        by_channels = tensor([d.across for d in discs], np.eye(2 * len(channels)), noise)
+        by_channels = solve_tensor([d.across for d in discs], np.eye(2 * len(channels)), noise)
     except UserError:  # the outputs do not determine it
         return columns
     gradients = np.concatenate([[x.gradient.real, x.gradient.imag] for x in series])

@@ -68,12 +68,12 @@ def average_turns(G: Array, run: Simulation) -> tuple[float, float]:
     return float(np.mean(4 * g * np.sin(2 * phi))), float(-np.mean(2 * g * np.cos(2 * phi)))
 
 
-def largest(*x: Array) -> float:
+def find_largest(*x: Array) -> float:
     """The largest magnitude."""
     return float(max(np.abs(v).max() for v in x))
 
 
-def bounds(x: Array) -> tuple[float, float]:
+def find_bounds(x: Array) -> tuple[float, float]:
     """Least and greatest."""
     return float(x.min()), float(x.max())
 
@@ -114,8 +114,8 @@ def repeat_multifrequency() -> Experiment:
     unreached = "no stop-band attenuation from 40 to 100 dB gives it"
     rows = []
     for name in MODELS:
-        ours = [largest(*c[name]) for c in filters]
-        what, reach = f"{name} minus centre, largest of both channels", bounds(np.array(ours))
+        ours = [find_largest(*c[name]) for c in filters]
+        what, reach = f"{name} minus centre, largest of both channels", find_bounds(np.array(ours))
         rows.append(
             judge(
                 what, paper.DIFFERENCE[name], ours[-1], reach=reach, open_input=cause, unexplained=unreached
@@ -163,15 +163,15 @@ def repeat_dynamic() -> Experiment:
     errors = {name: find_error(name, run) for name in DERIVED}
     base, slopes = respond(measure_analytical)
     reached = base + draw_angles() @ slopes
-    gradient = largest(run_regular(gravity=WITH_MASS).G_out - run_regular().G_out)
-    output = largest(run.G_out)
+    gradient = find_largest(run_regular(gravity=WITH_MASS).G_out - run_regular().G_out)
+    output = find_largest(run.G_out)
     rows = [
         judge("k_ggi", paper.K_GGI, run.instrument.scale_factor * EOTVOS),
         judge("output before demodulation", paper.OUTPUT, output),
     ]
     for name, error in errors.items():
-        rows.append(judge(f"{name} model error before demodulation", paper.MODEL_ERROR, largest(error)))
-    relative = largest(errors["analytical"]) / output
+        rows.append(judge(f"{name} model error before demodulation", paper.MODEL_ERROR, find_largest(error)))
+    relative = find_largest(errors["analytical"]) / output
     rows.append(judge("relative error of the analytical model", paper.RELATIVE_ERROR, relative))
     reason = "no gradient is stated for this experiment"
     what = "voltage of the gravitational gradient"
@@ -183,7 +183,7 @@ def repeat_dynamic() -> Experiment:
                 f"{name} model error, {channel}",
                 paper.DYNAMIC[name, channel],
                 ours,
-                reach=bounds(by_draws) if name == "analytical" else None,
+                reach=find_bounds(by_draws) if name == "analytical" else None,
                 open_input=_OPEN,
                 unexplained=_FIXED,
             )
@@ -288,18 +288,18 @@ def _compare_entry(e: int, name: str, values: Values, reach: Values) -> PrintedE
     v, simplified = values[e, name], name.startswith(("Ms", "sigmas"))
     within, unexplained = None, _NO_ANGULAR_MOTION
     if not simplified:
-        within, unexplained = bounds(reach[e, name]), "no vartheta_x within that range gives it"
+        within, unexplained = find_bounds(reach[e, name]), "no vartheta_x within that range gives it"
     elif e > 1:
         unexplained = "the spread of our seeds does not reach it"
         if name.startswith("Ms"):
             plain = name.replace("Ms", "M")
-            (low, high), (least, greatest) = bounds(reach[e, plain]), bounds(v - values[e, plain])
+            (low, high), (least, greatest) = find_bounds(reach[e, plain]), find_bounds(v - values[e, plain])
             within = (low + least, high + greatest)
     return judge(
         f"exp. {e}: {_LABELS[name]}",
         paper.table_viii(e, name),
         float(v.mean()),
-        spread=bounds(v),
+        spread=find_bounds(v),
         reach=within,
         open_input=_MEAN if simplified else _ANALYTICAL,
         unexplained=unexplained,
@@ -315,8 +315,8 @@ def _compare_densities(values: Values, reach: Values) -> list[PrintedEntry]:
                 f"exp. {e}: noise density, {model}",
                 density,
                 float(v.mean()),
-                spread=bounds(v),
-                reach=bounds(reach[e, "sigma_in"] / root) if model == "analytical" else None,
+                spread=find_bounds(v),
+                reach=find_bounds(reach[e, "sigma_in"] / root) if model == "analytical" else None,
                 open_input=_ANALYTICAL,
                 unexplained=_NO_ANGULAR_MOTION if e == 1 else "as sigma",
             )

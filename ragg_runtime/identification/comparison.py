@@ -34,7 +34,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import Model, make_vector
-from ragg_runtime.signals.demodulators import Tensor, find_demodulator, is_demodulable, low_pass, tensor
+from ragg_runtime.signals.demodulators import Tensor, find_demodulator, is_demodulable, low_pass, solve_tensor
 from ragg_runtime.signals.fir import convolve
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import render_notebook
@@ -331,7 +331,7 @@ class Together:
         axes = [self.layout.discs[self.layout.outputs[n].disc].across for n in self.places]
         rows = np.stack([self.seen.real, self.seen.imag], axis=1).reshape(2 * len(axes), -1)
         try:
-            return tensor(axes, rows, np.outer(self.std, [2.0, 1.0]).ravel())
+            return solve_tensor(axes, rows, np.outer(self.std, [2.0, 1.0]).ravel())
         except UserError:
             return None
 

@@ -240,8 +240,8 @@ class Instrument:
                     where=at(fields.get("path"), "[accelerometers]"),
                     expected=f'{p.name} = {{ value = ..., unit = "{p.display_unit}" }}',
                 )
-        vectors = {name: _vector(accelerometers.get(name, 0.0), layout.size) for name in PARAMETER}
-        priors = {name: _vector(v, layout.size) for name, v in (sigmas or {}).items()}
+        vectors = {name: _make_vector(accelerometers.get(name, 0.0), layout.size) for name in PARAMETER}
+        priors = {name: _make_vector(v, layout.size) for name, v in (sigmas or {}).items()}
         instrument = cls(layout, g0, MappingProxyType(vectors), sigmas=MappingProxyType(priors), **fields)
         _check_physical(instrument)
         return instrument
@@ -249,7 +249,7 @@ class Instrument:
     def replace(self, **changes: ArrayLike) -> Instrument:
         """The same instrument with some accelerometer parameters changed (SI, scalar or (n,))."""
         check_keys(changes, PARAMETER, "[accelerometers]")
-        changed = {name: _vector(v, self.layout.size) for name, v in changes.items()}
+        changed = {name: _make_vector(v, self.layout.size) for name, v in changes.items()}
         return dataclasses.replace(self, accelerometers=MappingProxyType({**self.accelerometers, **changed}))
 
     def sigma(self, name: str) -> Vector:
@@ -296,7 +296,7 @@ class Instrument:
         return units(self.g0)
 
 
-def _vector(value: ArrayLike, count: int) -> Vector:
+def _make_vector(value: ArrayLike, count: int) -> Vector:
     vector = np.broadcast_to(np.asarray(value, dtype=np.float64), (count,)).copy()
     vector.flags.writeable = False
     return vector

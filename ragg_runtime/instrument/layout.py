@@ -258,16 +258,16 @@ def _sum_gains(o: Output, k1: Array, R: Array) -> float:
     return float(np.sum(np.abs(k1[list(o.members)] * R[list(o.members)])))
 
 
-def unit(v: ArrayLike) -> Vector3:
+def normalise(v: ArrayLike) -> Vector3:
     """A vector (3,) scaled to length 1."""
     x = np.asarray(v, dtype=np.float64)
     a, b, c = (x / np.linalg.norm(x)).tolist()
     return a, b, c
 
 
-def perpendicular(v: ArrayLike, axis: Vector3) -> Vector3:
+def find_across(v: ArrayLike, axis: Vector3) -> Vector3:
     """The direction of ``v`` (3,) less its part along a unit vector."""
-    return unit(np.asarray(v) - np.dot(v, axis) * np.array(axis))
+    return normalise(np.asarray(v) - np.dot(v, axis) * np.array(axis))
 
 
 def least_rotation(start: Vector3, end: Vector3, spare: Vector3) -> Array:
@@ -280,7 +280,7 @@ def least_rotation(start: Vector3, end: Vector3, spare: Vector3) -> Array:
     return np.asarray(np.eye(3) + K + K @ K / (1.0 + c))
 
 
-def constants(layout: Layout) -> Mapping[str, tuple[float, ...]]:
+def list_constants(layout: Layout) -> Mapping[str, tuple[float, ...]]:
     """Name -> one number for each accelerometer; heights, turns and axes only where the layout has some."""
     places = layout.places
     values: dict[str, tuple[float, ...]] = {
@@ -290,10 +290,10 @@ def constants(layout: Layout) -> Mapping[str, tuple[float, ...]]:
     if any(p.height != 0.0 for p in places):
         values["height_j"] = tuple(float(p.height) for p in places)
     if any(p.direction != TANGENTIAL for p in places):
-        values |= _entries("turn", [least_rotation(TANGENTIAL, p.direction, AXIAL) for p in places])
+        values |= _name_entries("turn", [least_rotation(TANGENTIAL, p.direction, AXIAL) for p in places])
     if not all(d.level for d in layout.discs):
         discs = [layout.discs[p.disc] for p in places]
-        values |= _entries("axes", [np.column_stack([*d.across, d.axis]) for d in discs])
+        values |= _name_entries("axes", [np.column_stack([*d.across, d.axis]) for d in discs])
     return values
 
 
@@ -301,14 +301,14 @@ PARTS = 1_000_000
 """Of a degree: what an angle on the disc is written in."""
 
 
-def degrees(layout: Layout) -> tuple[Fraction | None, ...]:
+def find_degrees(layout: Layout) -> tuple[Fraction | None, ...]:
     """The exact angle of each accelerometer, as it was written; ``None``: it was not written in millionths of a degree."""
     parts = [math.degrees(p.angle) * PARTS for p in layout.places]
     # a part in 1e12: what turning degrees into radians rounds off
     return tuple(Fraction(round(x), PARTS) if abs(x - round(x)) < 1e-12 * PARTS else None for x in parts)
 
 
-def _entries(name: str, matrices: list[Array]) -> dict[str, tuple[float, ...]]:
+def _name_entries(name: str, matrices: list[Array]) -> dict[str, tuple[float, ...]]:
     # + 0.0 makes -0.0 the zero that it is
     return {
         f"{name}_{i}{k}_j": tuple(float(m[i, k]) + 0.0 for m in matrices) for i in range(3) for k in range(3)

@@ -42,10 +42,10 @@ from ragg_runtime.instrument.layout import (
     Disc,
     Layout,
     Vector3,
+    find_across,
     least_rotation,
+    normalise,
     paper,
-    perpendicular,
-    unit,
 )
 from ragg_runtime.instrument.units import STANDARD_G0, RawQuantity, Units, read_quantity, read_si, units
 
@@ -118,7 +118,7 @@ def _read_accelerometers(
     for name, raw in table.items():
         place = at(path, f"[accelerometers] {name}")
         si_unit = PARAMETER[name].si_unit
-        quantity = read_quantity(_without(raw, "sigma", "fixed"), place, count=count)
+        quantity = read_quantity(_drop_keys(raw, "sigma", "fixed"), place, count=count)
         values[name] = read_si(quantity, si_unit, g0, place)
         if _is_fixed(raw, place):
             fixed.add(name)
@@ -136,8 +136,8 @@ def _is_fixed(raw: object, where: str) -> bool:
     return isinstance(raw, dict) and check_choice(raw.get("fixed", False), (False, True), f"{where}, fixed")
 
 
-def _without(raw: object, *keys: str) -> object:
-    """A quantity as written, less what is said of it besides."""
+def _drop_keys(raw: object, *keys: str) -> object:
+    """A quantity as written, without further keys."""
     return {k: v for k, v in raw.items() if k not in keys} if isinstance(raw, dict) else raw
 
 
@@ -178,7 +178,7 @@ def _read_effect(entry: object, where: str, u: Units, count: int) -> EffectSetti
         }
     fixed = {name for name, raw in values.items() if _is_fixed(raw, f"{where}: {name}")}
     quantities = {
-        name: read_quantity(_without(raw, "fixed"), f"{where}: {name}", count=count)
+        name: read_quantity(_drop_keys(raw, "fixed"), f"{where}: {name}", count=count)
         for name, raw in values.items()
     }
     for name, q in quantities.items():
@@ -259,7 +259,7 @@ def _read_disc(table: Mapping[str, Any], where: str, *, single: bool) -> Disc:
         name=name,
         spin_frequency=_read_number(table, "spin_frequency", "Hz", where),
         axis=axis,
-        zero=perpendicular(zero, axis),
+        zero=find_across(zero, axis),
         angle_column="spin_angle" if single else f"spin_angle_{name}",
     )
 
@@ -352,7 +352,7 @@ def _read_direction(table: Mapping[str, Any], key: str, where: str, default: Vec
             found=repr(raw),
             expected=f"{key} = [0, 0, 1], three numbers",
         )
-    return unit(raw)
+    return normalise(raw)
 
 
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
@@ -369,26 +369,26 @@ def set_parameters(
     ``sigmas``, in the values' units, replace those of the sheet, ``None`` takes them out; of what is not named they stay where the unit
     does. ``fixed`` marks those that are not fitted. Raises UserError for an unknown parameter.
     """
-    document = _document(text)
+    document = _parse(text)
     table: Any = document.setdefault("accelerometers", tomlkit.table())
     check_keys(values, PARAMETER, "[accelerometers]")
     for name, quantity in values.items():
         further: dict[str, Any] = {"fixed": fixed[name]} if name in fixed else {}
         if name in sigmas:
-            further["sigma"] = _plain(sigmas[name] or ())
+            further["sigma"] = _write_number(sigmas[name] or ())
         _put(table, name, quantity, further)
     return tomlkit.dumps(document)
 
 
 def add_effect(text: str, setting: EffectSetting) -> str:
     """``text`` with the effect at the end of ``effects``, or with its values changed if it is there."""
-    document = _document(text)
+    document = _parse(text)
     if "effects" not in document:
-        document = _document("effects = []\n" + text)  # a plain key must come before the first table
+        document = _parse("effects = []\n" + text)  # a plain key must come before the first table
     entries: Any = document["effects"]
     place = _find(entries, setting.id)
     if place is None:
-        entry = _entry(setting)
+        entry = _write_entry(setting)
         if isinstance(entries, AoT):
             table = tomlkit.table()
             table.update(entry if isinstance(entry, dict) else {"id": setting.id})
@@ -396,7 +396,7 @@ def add_effect(text: str, setting: EffectSetting) -> str:
         entries.append(entry)
     elif isinstance(entries[place], str):
         comment = entries[place].trivia.comment
-        entries[place] = _entry(setting)
+        entries[place] = _write_entry(setting)
         entries[place].trivia.comment = comment
     else:
         for name, quantity in setting.values.items():
@@ -406,11 +406,11 @@ def add_effect(text: str, setting: EffectSetting) -> str:
 
 def remove_effect(text: str, effect_id: str) -> str:
     """``text`` without the effect; UserError if it is not there."""
-    document = _document(text)
+    document = _parse(text)
     entries: Any = document.get("effects", [])
     place = _find(entries, effect_id)
     if place is None:
-        ids = [_id(e) for e in entries]
+        ids = [_read_id(e) for e in entries]
         raise UserError(
             f"the effect {effect_id!r} is not in the model",
             found="effects " + ", ".join(ids) if ids else "no effects",
@@ -422,43 +422,43 @@ def remove_effect(text: str, effect_id: str) -> str:
 
 def with_full_kinematics(text: str) -> str:
     """``text`` with ``[model] kinematics = "full"``, unless it has a ``[model]``, or ``disc-spin``, which also stands for it."""
-    document = _document(text)
+    document = _parse(text)
     if "model" in document or _find(document.get("effects", []), "disc-spin") is not None:
         return text
     return f'{text.rstrip()}\n\n[model]\nkinematics = "full"\n'
 
 
-def _document(text: str) -> tomlkit.TOMLDocument:
+def _parse(text: str) -> tomlkit.TOMLDocument:
     try:
         return tomlkit.parse(text)
     except (TOMLKitError, ValueError, RecursionError) as error:
         raise UserError("not a TOML file", found=str(error), expected="the form of model.toml") from None
 
 
-def _entry(setting: EffectSetting) -> Any:
+def _write_entry(setting: EffectSetting) -> Any:
     expression = setting.expression or {"params": {}}
     if not (setting.values or setting.expression):
         return tomlkit.item(setting.id)
     entry = tomlkit.inline_table()
     entry.update({"id": setting.id} | {k: expression[k] for k in _EXPRESSION if k in expression})
     for name in dict.fromkeys((*expression["params"], *setting.values)):
-        entry.add(name, _inline(setting.values.get(name), expression["params"].get(name, _NOTHING)))
+        entry.add(name, _write_inline(setting.values.get(name), expression["params"].get(name, _NOTHING)))
     return entry
 
 
-def _inline(quantity: RawQuantity | None, further: Mapping[str, Any]) -> Any:
+def _write_inline(quantity: RawQuantity | None, further: Mapping[str, Any]) -> Any:
     """An inline table of a quantity and further keys, those that are false or empty left out."""
     table = tomlkit.inline_table()
     if quantity is not None:
-        table.update({"value": _plain(quantity.value), "unit": quantity.unit})
+        table.update({"value": _write_number(quantity.value), "unit": quantity.unit})
     table.update({k: x for k, x in further.items() if k not in table and x not in (False, [])})
     return table
 
 
-def _plain(value: float | tuple[float, ...]) -> int | float | list[Any]:
+def _write_number(value: float | tuple[float, ...]) -> int | float | list[Any]:
     """Whole numbers are written as people write them: 30, not 30.0."""
     if isinstance(value, tuple):
-        return [_plain(x) for x in value]
+        return [_write_number(x) for x in value]
     value = float(value)
     return int(value) if value.is_integer() and abs(value) < 1e6 else value
 
@@ -469,14 +469,14 @@ def _put(table: Any, name: str, quantity: RawQuantity, further: Mapping[str, Any
     entry = dict(old) if isinstance(old, dict) else {}
     if entry.get("unit") != quantity.unit:
         entry.pop("sigma", None)
-    table[name] = _inline(quantity, {**entry, **further})
+    table[name] = _write_inline(quantity, {**entry, **further})
     if old is not None:
         table[name].trivia.comment, table[name].trivia.comment_ws = old.trivia.comment, old.trivia.comment_ws
 
 
 def _find(entries: Any, effect_id: str) -> int | None:
-    return next((n for n, e in enumerate(entries) if _id(e) == effect_id), None)
+    return next((n for n, e in enumerate(entries) if _read_id(e) == effect_id), None)
 
 
-def _id(entry: Any) -> str:
+def _read_id(entry: Any) -> str:
     return str(entry["id"] if isinstance(entry, dict) else entry)

@@ -97,7 +97,7 @@ class Units:
         if text in DIMENSIONLESS:
             return self._registry.dimensionless
         remedy = "join names of units by * or /, with exponents up to 12; a number belongs in the value"
-        for spelling in spellings(text) if len(text) <= _LONGEST else ():
+        for spelling in list_spellings(text) if len(text) <= _LONGEST else ():
             if _UNIT.fullmatch(spelling) is None:
                 continue
             try:
@@ -133,13 +133,13 @@ class Units:
             raise UserError(
                 "the unit has the wrong dimension",
                 where=where,
-                found=f"{unit!r} ({_dimension(source)})",
-                expected=f"a unit of {_dimension(target)}, which {si_unit!r} has",
+                found=f"{unit!r} ({_describe(source)})",
+                expected=f"a unit of {_describe(target)}, which {si_unit!r} has",
                 remedy=f"g is the specific force {self.g0:g} m/s^2 here, not the gram"
                 if "[mass]" in str(target.dimensionality) + str(source.dimensionality)
                 else None,
             )
-        if self._counts(source, _CYCLES) and self._counts(target, _ANGLES):
+        if self._has_factor(source, _CYCLES) and self._has_factor(target, _ANGLES):
             raise UserError(
                 "a frequency is given where an angular rate is needed",
                 where=where,
@@ -147,7 +147,7 @@ class Units:
                 expected=si_unit,
                 remedy="write rad/s, deg/s, deg/h or rpm",
             )
-        return source, target, self._counts(target, _CYCLES) and self._counts(source, _ANGLES)
+        return source, target, self._has_factor(target, _CYCLES) and self._has_factor(source, _ANGLES)
 
     def base_unit(self, unit: str, where: str | None = None) -> str:
         """The SI base unit for ``unit``, as text that :meth:`parse` reads (``K``, ``m/s**2``)."""
@@ -156,7 +156,7 @@ class Units:
 
     def uses_g(self, unit: str, where: str) -> bool:
         """Whether ``unit`` is made with g."""
-        return self._counts(self.parse(unit, where), frozenset(("standard_g",)))
+        return self._has_factor(self.parse(unit, where), frozenset(("standard_g",)))
 
     def fits(self, unit: str, si_unit: str) -> bool:
         """Whether ``unit`` is a unit and has the dimension of ``si_unit``."""
@@ -171,7 +171,7 @@ class Units:
                     return reading
         return None
 
-    def _counts(self, unit: Any, names: frozenset[str]) -> bool:
+    def _has_factor(self, unit: Any, names: frozenset[str]) -> bool:
         """Whether one of these units, with any prefix, is a factor of a unit."""
         return any(self._registry.parse_unit_name(name)[0][1] in names for name in unit._units)
 
@@ -248,7 +248,7 @@ def _count_up(count: int, before: str = "") -> str:
     return ", ".join(labels) if count <= 4 else f"{labels[0]} ... {labels[-1]}"
 
 
-def _dimension(unit: Any) -> str:
+def _describe(unit: Any) -> str:
     return "dimension one" if unit.dimensionless else str(unit.dimensionality)
 
 
@@ -290,7 +290,7 @@ _WORDS = frozenset((
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 
 
-def spellings(text: str) -> Iterator[str]:
+def list_spellings(text: str) -> Iterator[str]:
     """What ``text`` may mean, in the order to try: the field's spellings first."""
     text = text.replace("º", "°")
     if degrees := _DEGREES.fullmatch(text):

@@ -168,12 +168,12 @@ def _make_symbolic_layout(layout: Layout) -> SymbolicLayout:
 
     if layout.like_paper:
         return QUARTERS
-    constants = layouts.constants(layout)
+    constants = layouts.list_constants(layout)
     return SymbolicLayout(
         names=layout.names,
         constants=constants,
         outputs=tuple(SymbolicOutput(o.name, o.members, o.signs) for o in layout.outputs),
-        rest=rest_of_angles(layouts.degrees(layout), constants["cos_j"], constants["sin_j"]),
+        rest=rest_of_angles(layouts.find_degrees(layout), constants["cos_j"], constants["sin_j"]),
         own=True,
     )
 
@@ -248,7 +248,7 @@ def identify(instrument: Instrument, ids: Sequence[str] | None = None, *, candid
     layout = instrument.layout
     if not layout.like_paper:
         outputs = [[o.name, o.members, o.signs] for o in layout.outputs]
-        parts += [layout.names, dict(layouts.constants(layout)), outputs]
+        parts += [layout.names, dict(layouts.list_constants(layout)), outputs]
     return compute_digest(json.dumps(parts, sort_keys=True))
 
 

@@ -99,13 +99,13 @@ class Record:
     @cached_property
     def channels(self) -> Mapping[str, Array]:
         """Name -> (N,), SI."""
-        return {n: self._inner(x) for n, x in self.wide.items()}
+        return {n: self._cut_halo(x) for n, x in self.wide.items()}
 
     @cached_property
     def phi(self) -> Array:
         """(N,) rad: the disc angle, the encoder's or 2 pi frac(spin_frequency (start + time))."""
         if self.angle_column in self.wide:
-            return self._inner(self.wide[self.angle_column])
+            return self._cut_halo(self.wide[self.angle_column])
         return disc_angle(self.time, self.spin_frequency, self.start)
 
     @cached_property
@@ -156,8 +156,8 @@ class Record:
 
     def series(self, name: str) -> Array | None:
         """A channel, or the time derivative ``d_<channel>``, ``d2_<channel>`` of one; ``None`` if unknown."""
-        wide = self._wide(name)
-        return None if wide is None else self._inner(wide)
+        wide = self._find_wide(name)
+        return None if wide is None else self._cut_halo(wide)
 
     def quantity(self, name: str) -> Array:
         """(N,): what a level of noise may follow: ``time``, ``phi`` (0 to 2 pi), a channel, ``abs(CHANNEL)``, or ``abs(VECTOR)``, a length.
@@ -252,10 +252,10 @@ class Record:
             wide |= dict(zip(names, moved, strict=True))
         return replace(self, wide=wide)
 
-    def _inner(self, x: Array) -> Array:
+    def _cut_halo(self, x: Array) -> Array:
         return x[self.halo[0] : len(x) - self.halo[1]]
 
-    def _wide(self, name: str) -> Array | None:
+    def _find_wide(self, name: str) -> Array | None:
         if name in self.wide:
             return self.wide[name]
         if name == READING:
@@ -264,7 +264,7 @@ class Record:
             return self.spin[name]
         for prefix, base in (("d_", name[2:]), ("d2_", f"d_{name[3:]}")):
             if name.startswith(prefix):
-                inner = self._wide(base)
+                inner = self._find_wide(base)
                 return None if inner is None else differentiate(inner, self.rate)
         return None
 

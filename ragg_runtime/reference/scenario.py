@@ -48,13 +48,13 @@ _SHEET: Mapping[str, tuple[float, Sequence[float], float]] = {
 vartheta_x; it leaves the linear terms alone."""
 
 
-def _instrument(accelerometers: Mapping[str, Array]) -> Instrument:
+def _build(accelerometers: Mapping[str, Array]) -> Instrument:
     return Instrument.build(paper(0.1, 0.25), _G0, accelerometers)
 
 
 def table_v() -> Instrument:
     """The paper's instrument (Table V): R = 0.1 m, 0.25 Hz, scale factors 10, 11, 11.5 and 12 mA/g."""
-    return _instrument({name: unit * np.array(values, float) for name, (unit, values, _) in _SHEET.items()})
+    return _build({name: unit * np.array(values, float) for name, (unit, values, _) in _SHEET.items()})
 
 
 def trimmed() -> Instrument:
@@ -64,7 +64,7 @@ def trimmed() -> Instrument:
 
 def perfect() -> Instrument:
     """No errors at all: equal scale factors of 10 mA/g, everything else zero."""
-    return _instrument({"K1": np.full(4, 1e-2 / _G0), "k_VI": np.full(4, 1e9)})
+    return _build({"K1": np.full(4, 1e-2 / _G0), "k_VI": np.full(4, 1e9)})
 
 
 def perturb(instrument: Instrument, rng: np.random.Generator, amount: float = 1.0) -> Instrument:
@@ -115,7 +115,7 @@ _PAD = 10.0
 _BURST_FREQUENCY = 0.015
 
 
-def _gaussian(rng: np.random.Generator, size: int, rate: float, density: Callable[[Array], Array]) -> Array:
+def _draw(rng: np.random.Generator, size: int, rate: float, density: Callable[[Array], Array]) -> Array:
     """A stationary Gaussian record of some power spectral density, unit variance on average."""
     # Longer than needed, so that the end does not run into the beginning.
     period = next_fast_len(size + int(60 * rate), real=True)
@@ -145,9 +145,9 @@ def turbulence(
     check_choice(shape, tuple(SHAPES), "shape", "unknown shape of turbulence")
     rate = _NODES_PER_CYCLE * CUTOFF
     nodes = -_PAD + np.arange(int((duration + 2 * _PAD) * rate) + 2) / rate
-    record = _gaussian(rng, nodes.size, rate, lambda f: SHAPES[shape](f) / (1 + (f / CUTOFF) ** 16))
+    record = _draw(rng, nodes.size, rate, lambda f: SHAPES[shape](f) / (1 + (f / CUTOFF) ** 16))
     if bursts > 0:
-        slow = _gaussian(rng, nodes.size, rate, lambda f: 1 / (1 + (f / _BURST_FREQUENCY) ** 16))
+        slow = _draw(rng, nodes.size, rate, lambda f: 1 / (1 + (f / _BURST_FREQUENCY) ** 16))
         record = record * np.exp(bursts * slow)
     flight = (nodes >= 0.0) & (nodes <= duration)
     record = (record - record[flight].mean()) / record[flight].std()

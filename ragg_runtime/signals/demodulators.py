@@ -282,7 +282,7 @@ def spread_across(axes: tuple[Axis, Axis], inline: Array, cross: Array) -> Array
 _TRACELESS = np.insert(np.eye(5), 5, [-1.0, 0.0, 0.0, -1.0, 0.0], axis=0)
 
 
-def tensor(axes: Sequence[tuple[Axis, Axis]], channels: Array, std: Array) -> Tensor:
+def solve_tensor(axes: Sequence[tuple[Axis, Axis]], channels: Array, std: Array) -> Tensor:
     """The tensor that agrees best with channels (2 discs, N), inline and cross of each disc in turn.
 
     Parameters

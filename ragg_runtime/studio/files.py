@@ -64,19 +64,19 @@ class Places:
         if not folder.is_dir():
             raise UserError("there is no such folder", where=folder)
         with os.scandir(folder) as entries:
-            kinds = [(e, _kind_of(e)) for e in sorted(entries, key=lambda e: e.name)]
+            kinds = [(e, _find_kind(e)) for e in sorted(entries, key=lambda e: e.name)]
         openable = [(e, kind) for e, kind in kinds if kind is not None][:LISTED]
         return {
             "folder": str(folder),
             "above": str(folder.parent) if any(r in folder.parents for r in self.roots) else None,
             "roots": list(map(str, self.roots)),
             "entries": [
-                {"name": e.name, "path": e.path, "kind": kind, "bytes": _size_of(e)} for e, kind in openable
+                {"name": e.name, "path": e.path, "kind": kind, "bytes": _find_size(e)} for e, kind in openable
             ],
         }
 
 
-def _kind_of(e: os.DirEntry[str]) -> str | None:
+def _find_kind(e: os.DirEntry[str]) -> str | None:
     if e.name.startswith("."):
         return None
     if e.is_dir():
@@ -86,7 +86,7 @@ def _kind_of(e: os.DirEntry[str]) -> str | None:
     return "flight" if find_ending(e.name) else None
 
 
-def _size_of(e: os.DirEntry[str]) -> int:
+def _find_size(e: os.DirEntry[str]) -> int:
     try:
         return e.stat().st_size if e.is_file() else 0
     except OSError:

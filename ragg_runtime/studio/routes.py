@@ -122,7 +122,7 @@ def _show_state(session: Session, request: Request) -> Any:
     status, s = {"status": session.jobs.status.as_json()}, session.state
     # a state never changes: it is described once
     if session.overview is None or session.overview[0] is not s:
-        session.overview = s, views.overview(s)
+        session.overview = s, views.describe_state(s)
     return status | session.overview[1]
 
 

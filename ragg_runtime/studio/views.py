@@ -38,11 +38,11 @@ MOST_MARKS = 300
 """Marks of either kind on a timeline, the longest and the first: it has no more pixels for them."""
 
 
-def overview(s: State) -> Json:
+def describe_state(s: State) -> Json:
     """Everything small, in one answer."""
     m, c, d = s.loaded, s.compared, s.diagnosed
     return {
-        "commands": commands(s),
+        "commands": list_commands(s),
         "model": None if m is None else _show_model(m),
         "flights": show_flights(s),
         "unread": [] if s.flights else [str(p) for p in s.paths],
@@ -50,7 +50,7 @@ def overview(s: State) -> Json:
         "effects": [] if d is None else show_effects(d),
         "untestable": [] if d is None else [_describe(d, n.effect) | {"why": n.why} for n in d.not_testable],
         "unexplained": None if d is None else _show_unexplained(d),
-        "next_motion": [] if d is None else [describe.motion_sentence(p.as_json()) for p in d.next_motion],
+        "next_motion": [] if d is None else [describe.write_motion(p.as_json()) for p in d.next_motion],
         "parameters": None if c is None else show_sections(panels.describe_parameters(c.fitted)),
         "validation": None if s.held is None else _show_validation(s),
         "sheet": None if m is None else show_sheet(m.instrument),
@@ -353,7 +353,7 @@ def mathml(latex: str, *, block: bool = False) -> str:
 # --- what one takes along ------------------------------------------------------------------------------
 
 
-def commands(s: State) -> list[str]:
+def list_commands(s: State) -> list[str]:
     """What does the same in a shell: first, as comments, the steps that are in the model already."""
     if s.loaded is None:
         return []
@@ -407,7 +407,7 @@ def take_away(s: State, what: str) -> tuple[str, bytes]:
 
 
 def _make_source(s: State, command: str) -> api.Source:
-    full_command = next((c for c in commands(s) if c.startswith(f"ragg {command} ")), f"ragg {command}")
+    full_command = next((c for c in list_commands(s) if c.startswith(f"ragg {command} ")), f"ragg {command}")
     return api.Source(full_command, s.model, s.fitted)
 
 
@@ -450,6 +450,6 @@ FILES: Mapping[str, tuple[str, Callable[[State], str | bytes]]] = {
     "model.toml": ("application/toml", lambda s: s.model.directory.text),
     "model-c.zip": ("application/zip", lambda s: _write_export(s, "c")),
     "model-numpy.zip": ("application/zip", lambda s: _write_export(s, "numpy")),
-    "commands.sh": ("text/plain", lambda s: "#!/bin/sh\n" + "\n".join(commands(s)) + "\n"),
+    "commands.sh": ("text/plain", lambda s: "#!/bin/sh\n" + "\n".join(list_commands(s)) + "\n"),
 }  # fmt: skip
 """Name of a file to download -> its media type, and what makes it."""

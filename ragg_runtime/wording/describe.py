@@ -326,7 +326,7 @@ def describe_diagnosis(d: Json, command: str = "") -> Sections:
         sections += _suggest_own_effect(d["unexplained"])
     sections += _describe_evidence(d)
     if d["next_motion"]:
-        sections.append(Section("Next motion", tuple(map(motion_sentence, d["next_motion"]))))
+        sections.append(Section("Next motion", tuple(map(write_motion, d["next_motion"]))))
     sections += _list_untestable(d)
     sections += _describe_off_sheet(d["off_sheet"])
     return (*sections, *(suggest_next(command) if d["found"] else ()))
@@ -397,7 +397,7 @@ def _suggest_own_effect(u: Json) -> Sections:
     return (Section("As an effect of your own", tuple(sentences), code=(u["expression"],)),)
 
 
-def motion_sentence(p: Json) -> str:
+def write_motion(p: Json) -> str:
     """What a motion would separate, from the JSON of a proposal."""
     if not p["separates"]:
         return f"no motion within the limits separates {p['effect']} from {p['rival']} (at best {number(p['separation_then'], 2)} σ)"

@@ -350,11 +350,11 @@ def describe_flight_file(f: Json) -> Sections:
     state = "bad" if any(r["refused"] for r in f["records"]) else "good"
     sections = [Section(sentences=(head,), state=state)]
     for r in f["records"]:
-        sections += _record_sections(r)
+        sections += _describe_record(r)
     return tuple(sections)
 
 
-def _record_sections(r: Json) -> list[Section]:
+def _describe_record(r: Json) -> list[Section]:
     facts = [f"{numbers.fixed(r['rows'], 0)} rows"]
     if r["rate_Hz"] is not None:
         facts.append(

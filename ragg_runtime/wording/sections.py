@@ -157,16 +157,16 @@ def render_text(sections: Sequence[Section], *, verbose: bool = False) -> str:
     """The sections for a terminal, in ASCII but for names; ``verbose``: with their details."""
     parts = []
     for s in sections:
-        title = f"{_terminal(s.title)}:"
+        title = f"{_clean_line(s.title)}:"
         lines = [title] if s.title and not s.detail else []
         indent = "  " if s.title else ""
         if s.detail and not verbose:
-            parts += [f"{_terminal(s.summary)} (-v)"] if s.summary else []
+            parts += [f"{_clean_line(s.summary)} (-v)"] if s.summary else []
             continue
         if s.detail:
             lines = [title]
-        lines += [f"{indent}{_terminal(text)}" for text in s.sentences]
-        lines += [] if s.table is None else _text_table(s.table, indent, verbose)
+        lines += [f"{indent}{_clean_line(text)}" for text in s.sentences]
+        lines += [] if s.table is None else _render_table(s.table, indent, verbose)
         lines += [f"  {one_line(line)}" for line in s.code]
         if lines != [title]:
             parts.append("\n".join(lines))
@@ -176,14 +176,14 @@ def render_text(sections: Sequence[Section], *, verbose: bool = False) -> str:
     return "\n".join(spaced)
 
 
-def _terminal(text: str) -> str:
+def _clean_line(text: str) -> str:
     """A line in ASCII, but for names; these in one line, without what would steer a terminal."""
     return one_line(numbers.to_ascii(text))
 
 
-def _text_table(t: Table, indent: str, verbose: bool) -> list[str]:
+def _render_table(t: Table, indent: str, verbose: bool) -> list[str]:
     rows = t.rows if verbose or t.brief is None else t.rows[: t.brief]
-    cells = [[_terminal(x) for x in row] for row in (t.heads, *rows)]
+    cells = [[_clean_line(x) for x in row] for row in (t.heads, *rows)]
     wide = [max(len(row[k]) for row in cells) for k in range(len(t.heads))]
     lines = []
     for row in cells:
@@ -195,17 +195,18 @@ def _text_table(t: Table, indent: str, verbose: bool) -> list[str]:
         lines = lines[1:]
     if len(rows) < len(t.rows):
         lines.append(f"{indent}and {len(t.rows) - len(rows)} more (-v)")
-    return [*lines, *([f"{indent}{_terminal(t.note)}"] if t.note else [])]
+    return [*lines, *([f"{indent}{_clean_line(t.note)}"] if t.note else [])]
 
 
 def render_html(sections: Sequence[Section], draw: Callable[[Plot], str] = lambda plot: "") -> str:
     """The sections as HTML without style, details folded; ``draw`` gives a plot as SVG."""
     drawn = [[(svg, p.caption) for p in s.plots if (svg := draw(p))] for s in sections]
-    return _environment().get_template("sections.html.j2").render(sections=zip(sections, drawn, strict=True))
+    template = _make_environment().get_template("sections.html.j2")
+    return template.render(sections=zip(sections, drawn, strict=True))
 
 
 @cache
-def _environment() -> jinja2.Environment:
+def _make_environment() -> jinja2.Environment:
     env = make_environment("ragg_runtime.wording", html=True)
     # texts come from files: no control characters, no marks that reverse the line
     env.finalize = lambda x: numbers.clean(x) if type(x) is str else x

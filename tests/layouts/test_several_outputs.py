@@ -34,7 +34,7 @@ from ragg_runtime.model.directory import ModelDir
 from ragg_runtime.model.model import evaluate_output, make_vector
 from ragg_runtime.model.record import record
 from ragg_runtime.reference import EffectValues
-from ragg_runtime.signals.demodulators import COMPONENTS, Demodulator, tensor
+from ragg_runtime.signals.demodulators import COMPONENTS, Demodulator, solve_tensor
 from tests.layouts import sheets
 from tests.layouts.sheets import flown_by
 from tests.layouts.test_layouts_physics import instrument
@@ -45,7 +45,7 @@ from tests.simulated import RATE
 def test_two_discs_are_refused() -> None:
     axes = [(np.eye(3)[0], np.eye(3)[1]), (np.eye(3)[1], np.eye(3)[2])]
     with pytest.raises(UserError, match="do not determine"):
-        tensor(axes, np.zeros((4, 1)), np.ones(4))
+        solve_tensor(axes, np.zeros((4, 1)), np.ones(4))
 
 
 DURATION = 600.0

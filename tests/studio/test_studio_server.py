@@ -145,7 +145,7 @@ def test_names_of_several_lines_stay_in_the_comments_of_a_shell(tmp_path: Path) 
         compensated=None,
         kept=0,
     )  # fmt: skip
-    script = "ragg() { :; }\n" + "\n".join(views.commands(shown))  # type: ignore[arg-type]
+    script = "ragg() { :; }\n" + "\n".join(views.list_commands(shown))  # type: ignore[arg-type]
     assert script.count("# done: ") == 2
     subprocess.run(["sh", "-c", script], cwd=tmp_path, check=True)
     assert not (tmp_path / "PWNED").exists()
