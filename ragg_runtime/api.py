@@ -423,13 +423,13 @@ def _save_calibration(m: Loaded, c: Calibrated, flights: Sequence[Flight], mappi
 
 
 def compare_frozen(m: Loaded, flights: Flights) -> Held:
-    """How far the model is from flights with the parameters as they were kept, and how these hold."""
+    """Compare flights with the model in its saved calibration, and test whether that holds."""
     flights = read_flights(m, flights)
     return _frozen.compare_frozen(m.model, m.instrument, flights, saved_calibration(m))
 
 
 def validate(m: Loaded, c: Comparison, fitted: Sequence[Flight], flights: Sequence[Flight]) -> Held:
-    """How the model calibrated on the flights of a comparison holds on others, on which nothing is fitted."""
+    """Test the calibration of a comparison on other flights, on which nothing is fitted."""
     calibrated_ = Calibrated(c.fitted, c.nominal, c.calibrated, c.holdout)
     return _frozen.compare_frozen(
         m.model, m.instrument, flights, _calibrate.make_saved(calibrated_, fitted, now())
@@ -490,7 +490,7 @@ def compensate(
 
 
 def contents(m: Loaded) -> Contents:
-    """What is exported of a model: with the calibration that was kept, else with the values of model.toml."""
+    """The content of an export: the model with its saved calibration, else with the values of model.toml."""
     saved, of = None, "values of model.toml, not calibrated"
     if m.directory.calibration is not None:
         try:

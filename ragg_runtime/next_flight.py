@@ -117,7 +117,7 @@ def next_flight(
 
 
 def _name_body(m: Loaded) -> str:
-    """What the model has beside the instrument, and where; UserError if that is nothing."""
+    """The body of the model that can be moved: its effect's id and values; UserError if there is none."""
     bodies = {e.id for e in m.model.effects if e.channels == MASS}
     for e in m.instrument.effects:
         if e.id in bodies:
@@ -186,7 +186,7 @@ class ChannelVariance:
         return ChannelVariance(Knowledge.of(f), np.asarray(r_factors))
 
     def rms(self, R: Array) -> tuple[float, float]:
-        """What the parameters of an R factor add to inline and cross, Eo."""
+        """Standard deviations of inline and cross, Eo, by parameters with this R factor."""
         inline, cross = (float(np.linalg.norm(G @ invert_root(R))) for G in self.r_factors)
         return inline, cross
 
@@ -231,7 +231,7 @@ class ChannelVariance:
 
 
 def write_run_sheet(x: NextFlight) -> str:
-    """What whoever flies it reads, as Markdown; the plan by which the calibration is certified afterwards."""
+    """Instructions for the crew, and the plan by which the calibration is certified afterwards, as Markdown."""
     channels = x.motion().channels
     peaks = {s[0]: float(np.max(np.abs(channels[s[0]] - x.mean[s[0]]))) for s in x.sinusoids}
     filters = {"unit": find_unit, "degrees": lambda phase: np.degrees(phase) % 360}
@@ -240,7 +240,7 @@ def write_run_sheet(x: NextFlight) -> str:
 
 
 def read_plan(path: Path) -> Json:
-    """What `ragg next-motion --for calibration --json` promised; UserError if the file is none of it."""
+    """The JSON of `ragg next-motion --for calibration`; UserError if the file is none."""
     try:
         plan = json.loads(read_text(path))
         for q in (*plan["parameters"], *plan["combinations"]):

@@ -1,4 +1,4 @@
-"""What is worked with: a model directory with the model derived for it, and flights that are read and examined for it."""
+"""A model directory with its derived model, and flights read and screened for it."""
 
 from __future__ import annotations
 
@@ -260,7 +260,7 @@ class Source:
 
     @property
     def notes(self) -> list[str]:
-        """What was done to model directory and flights, or looks odd in them."""
+        """Notes: changes to, and oddities of, model directory and flights."""
         return [
             *self.further,
             *(self.m.notes if self.m else ()),
@@ -275,7 +275,7 @@ class Source:
         return [*model, *((x.name, x.digest) for x in self.flights), *elsewhere]
 
     def as_json(self) -> dict[str, object]:
-        """What the reader did to the flights (``notes``), and what makes the result again (``provenance``)."""
+        """``notes`` of the reader on the flights, and ``provenance``, from which the result can be made again."""
         assert self.m is not None
         model = {
             "model": str(self.m.directory.path),

@@ -59,7 +59,7 @@ EXTRAS = {
 
 
 def missing_package(error: BaseException) -> UserError | None:
-    """What to install, where the error is that an optional package is missing; else ``None``."""
+    """A UserError that says what to install, if an optional package is missing; else ``None``."""
     if isinstance(error.__cause__, ModuleNotFoundError):  # pandas wraps it
         error = error.__cause__
     name = (error.name or "").split(".")[0] if isinstance(error, ModuleNotFoundError) else ""

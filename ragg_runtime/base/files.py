@@ -70,7 +70,7 @@ def _report_refusal(path: Path) -> Iterator[None]:
 
 
 def refuse_to_write(what: str, where: Path, error: OSError) -> UserError:
-    """What is said where the system refuses to write."""
+    """The UserError where the system refuses to write."""
     full = error.errno in (errno.ENOSPC, errno.EDQUOT)
     remedy = (
         "make room on its disc, or write elsewhere"
@@ -169,7 +169,7 @@ def _make_own_folder() -> Path:
 
 
 LIBRARIES = ("numpy", "scipy", "sympy", "pint", "pandas", "pyarrow", "xarray", "h5netcdf", "h5py")
-"""What the numbers of a result depend on, beside this package."""
+"""Libraries on which the numbers of a result depend."""
 
 
 MISSING = "not installed"

@@ -93,7 +93,7 @@ def split_range(length: int, longest: int) -> list[slice]:
 
 @functools.cache
 def _find_libraries() -> threadpoolctl.ThreadpoolController:
-    """Those of linear algebra; to look for them takes as long as a small fit."""
+    """Libraries of linear algebra; finding them takes as long as a small fit."""
     import scipy.linalg  # noqa: F401  (brings a BLAS of its own, which must be there to be limited)
     import threadpoolctl
 

@@ -77,7 +77,7 @@ def compare(
 
 
 def _list_oddities(m: Loaded) -> list[str]:
-    """What is odd about the saved calibration, also on stderr."""
+    """Oddities of the saved calibration, which are also printed to stderr."""
     odd = api.saved_calibration(m).find_oddities(m.model, m.instrument)
     for note in odd:
         click.echo(printable(f"note: {note}"), err=True)

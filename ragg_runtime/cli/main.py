@@ -105,7 +105,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def describe_refusal(error: OSError) -> str:
-    """What the system refused, and where, in one line."""
+    """An error of the system, and its place, in one line."""
     try:
         os.getcwd()
     except OSError:

@@ -147,7 +147,7 @@ class Command(click.Command):
 
 
 def find_wanted(option: str) -> Any:
-    """What the command that runs was asked to write besides its result: ``json_file``, ``report_file``, ``verbose``."""
+    """An option of the running command: ``json_file``, ``report_file`` or ``verbose``."""
     return click.get_current_context().meta[__name__][option]
 
 
@@ -178,7 +178,7 @@ def working(text: str, command: str, flights: Sequence[Flight]) -> Iterator[None
 
 
 def make_source(m: Loaded, flights: Sequence[Flight] = (), **fields: Any) -> Source:
-    """What the command that runs makes its result from; ``fields``: further fields."""
+    """The source of the running command's result; ``fields``: further fields."""
     return api.Source(command_line(), m, flights, **fields)
 
 
@@ -222,7 +222,7 @@ def conclude(
 
 
 def list_notes(flights: Sequence[Flight]) -> list[Section]:
-    """What the reader did to flights, every note once, with the flights that it is about; only their number after the first commands."""
+    """Notes of the reader, each once with its flights; after the first commands only their number."""
     about = group_notes((x.name, str(note)) for x in flights for note in x.notes)
     lines = []
     for note, names in about.items():

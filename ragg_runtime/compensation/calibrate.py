@@ -78,7 +78,7 @@ def list_parameters(f: Fitted) -> list[dict[str, Any]]:
 
 
 def list_combinations(f: Fitted) -> list[dict[str, Any]]:
-    """What the record determines: combinations of accelerometers', and single values, as JSON has them."""
+    """Combinations of accelerometers' parameters, and single ones, that the record determines, as in JSON."""
     columns, values, root = f.calibration.columns, f.calibration.in_scales, invert_root(information(f))
     together = find_combinations(f.model, f.calibration.p, columns, lambda w: float(np.linalg.norm(w @ root)))
     combinations = [(name, w, unit) for name, unit, w, _ in together]
@@ -227,7 +227,7 @@ class Saved:
         }
 
     def find_oddities(self, model: Model, instrument: Instrument) -> list[str]:
-        """What is odd about the calibration, in sentences."""
+        """Oddities of the calibration, in sentences."""
         odd = []
         if self.model["derivation"] != model.digest:
             odd.append("the model has been derived anew since the calibration was saved")
@@ -268,7 +268,7 @@ def saved_calibration(m: Loaded) -> Saved:
 
 
 def _parse_saved(e: Mapping[str, Any], m: Loaded, refuse: Callable[..., UserError]) -> Saved:
-    """What was kept as a calibration of the present model; what speaks against it raises the error that ``refuse`` makes."""
+    """A saved calibration, from its JSON; an error made by ``refuse`` if it is not of the present model."""
     model, instrument = m.model, m.instrument
     effects, form = [x.id for x in model.effects], instrument.form.words()
     description, layout = e["model"], [(name, len(x)) for name, x in e["values"].items()]

@@ -56,7 +56,7 @@ MEANING = {
     Quality.AUXILIARY: "with another channel outside its range in the saved calibration",
     Quality.CALIBRATION: "by a calibration that does not hold for this flight",
 }
-"""What each bit says of samples."""
+"""Meaning of each bit."""
 
 
 @dataclass(frozen=True)

@@ -251,7 +251,7 @@ def _make_channel(
 
 
 def find_sensitive(instrument: Instrument, observations: Sequence[Observation]) -> tuple[int, ...]:
-    """Those that see a gradient on a turning disc; UserError if there is none."""
+    """Positions of the observations that are sensitive to a gradient, on a turning disc; UserError if there is none."""
     a = instrument.accelerometers
     k1, R = a["k_VI"] * a["K1"], instrument.radii + a["dR"]
     positions = tuple(n for n, o in enumerate(observations) if o.record.turning and sees(o.output, k1, R))
@@ -270,7 +270,7 @@ def find_sensitive(instrument: Instrument, observations: Sequence[Observation]) 
 
 
 def describe_channel(c: OutputChannel, x: Compensated, instrument: Instrument) -> dict[str, Any]:
-    """What was done and how good it is, for JSON."""
+    """A compensated channel and its quality, for JSON."""
     o, d = c.observation, c.demodulator
     has_value = np.isfinite(x.gradient.real)
     rms = np.sqrt(np.mean(x.parameters[:, has_value] ** 2, axis=1)) if has_value.any() else np.full(2, np.nan)
@@ -335,7 +335,7 @@ def list_groups(model: Model, instrument: Instrument, p: Array) -> Iterator[tupl
 
 
 def list_contributions(c: OutputChannel, instrument: Instrument) -> list[dict[str, Any]]:
-    """What was removed: root mean squares of inline and cross, Eo, on two segments of the flight, largest first."""
+    """Contributions removed: rms of inline and cross, Eo, on two segments of the flight, largest first."""
     p, count = c.blocks[0].p, 0
     totals: dict[tuple[str, str | None], Array] = {}
     groups = [x for x in list_groups(c.model, instrument, p) if not np.array_equal(x[-1], p)]

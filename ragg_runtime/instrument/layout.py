@@ -203,7 +203,7 @@ class Layout:
 
 
 def column_endings(outputs: Sequence[str]) -> tuple[str, ...]:
-    """What the columns made of each output end in: nothing of an only one, else its own (``_A`` of ``G_out_A``)."""
+    """Ending of the columns made of each output: none if there is one output, else its own (``_A`` of ``G_out_A``)."""
     if len(outputs) == 1:
         return ("",)
     short = tuple(f"_{n.removeprefix('G_out').strip('_') or n}" for n in outputs)

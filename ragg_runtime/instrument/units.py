@@ -163,7 +163,7 @@ class Units:
         return self.find_meant(unit, si_unit) is not None
 
     def find_meant(self, unit: str, si_unit: str) -> str | None:
-        """What alone has the dimension: ``g`` for G of an acceleration, ``degC`` for C of a temperature, ``m/s2`` for M/S2."""
+        """The reading that has the dimension: ``g`` for G of an acceleration, ``degC`` for C of a temperature, ``m/s2`` for M/S2."""
         dimension = self.parse(si_unit).dimensionality
         for reading in (unit, _LETTERS.get(unit.strip(), unit), unit.casefold()):
             with contextlib.suppress(UserError):
@@ -279,7 +279,7 @@ _DEGREES = re.compile(r"(?:deg(?:rees?)?|°|o)[ ._]*([CFK])", re.IGNORECASE)
 """Of temperature: Deg. C, °K."""
 
 _LETTERS = {"C": "degC", "F": "degF", "k": "K", "ms-2": "m s-2", "ms^-2": "m s-2", "mps2": "m s-2", "gn": "g"}
-"""What people write these for where only this has the dimension."""
+"""Usual abbreviations, read so if only this reading has the dimension."""
 
 _WORDS = frozenset((
     "deg", "degs", "degree", "degrees", "rad", "rads", "radian", "radians", "s", "sec", "secs", "second", "seconds", "h",
@@ -291,7 +291,7 @@ _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 
 
 def list_spellings(text: str) -> Iterator[str]:
-    """What ``text`` may mean, in the order to try: the field's spellings first."""
+    """Readings of ``text`` in the order to try: the field's spellings first."""
     text = text.replace("º", "°")
     if degrees := _DEGREES.fullmatch(text):
         text = {"C": "degC", "F": "degF", "K": "K"}[degrees[1].upper()]

@@ -189,7 +189,7 @@ def _has_files(instrument: Instrument) -> bool:
 
 
 def list_files(instrument: Instrument) -> Mapping[str, str]:
-    """What ``generated/`` of a model directory must hold; empty where the packaged model serves."""
+    """The files of ``generated/`` in a model directory; none if the packaged model serves."""
     if not _has_files(instrument):
         return {}
     files = _derive_files(instrument, [s.id for s in instrument.effects])

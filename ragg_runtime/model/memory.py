@@ -80,7 +80,7 @@ class Memory:
 
 
 def list_memories(model: Model, p: Array) -> Iterator[Memory]:
-    """Those of a model's effects, by the parameters p (size,), SI."""
+    """Memories of a model's effects, by the parameters p (size,), SI."""
     places = model.chain.places
     for e in (e for e in model.effects if e.memory is not None):
         shape = (q for q in e.parameters if q.shape)
@@ -90,7 +90,7 @@ def list_memories(model: Model, p: Array) -> Iterator[Memory]:
 
 
 def first_memories(effects: Iterable[DerivedEffect], r: Record) -> Iterator[tuple[DerivedEffect, Memory]]:
-    """Those of effects that are not in the model: where a search in this record begins."""
+    """Memories of effects that are not in the model, with which a search in this record begins."""
     for e in (e for e in effects if e.memory is not None):
         values = {q.name: q.default for q in e.parameters if q.shape}
         if e.memory in SLIPPING:
@@ -129,7 +129,7 @@ def _compute_responses(r: Record, m: Memory, names: Container[str]) -> dict[str,
 
 
 def _collect_inputs(kind: str, r: Record) -> Mapping[str, Array]:
-    """What the memory is of."""
+    """The series that a memory of this kind acts on."""
     if kind == "mount":
         motion = (f"{n}_{k}" for n in ("a", "omega", "omegadot") for k in "xyz")
         return {f"mount_{n}": r.channels[n] for n in motion if n in r.channels}

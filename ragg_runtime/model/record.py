@@ -88,7 +88,7 @@ class Record:
 
     @cached_property
     def low_pass(self) -> Demodulator:
-        """What inline and cross have passed."""
+        """The low-pass of inline and cross."""
         return make_kernel(self.demodulation, self.rate)
 
     @property
@@ -322,7 +322,7 @@ def find_start(flight: Flight, instrument: Instrument) -> float:
 
 
 def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
-    """What of this flight enters a model of this output of the instrument."""
+    """The record of a flight for the model of an output of the instrument."""
     # a long flight's columns stay on disk, unless they have to be shifted
     time = flight.time if flight.time[0] == 0.0 else flight.time - flight.time[0]
     layout, k = instrument.layout, instrument.accelerometers
@@ -356,7 +356,7 @@ def list_recorded_channels(flight: Flight, layout: Layout) -> frozenset[str]:
 
 
 def strip_derivative(name: str) -> str:
-    """What a series ``d_<channel>`` or ``d2_<channel>`` is the time derivative of; any other is itself."""
+    """The channel of a time derivative ``d_<channel>`` or ``d2_<channel>``; other names as they are."""
     return name.removeprefix("d2_").removeprefix("d_")
 
 
@@ -426,7 +426,7 @@ class RecordedSeries:
         return names if alone and all(n in present for n in names) else None
 
     def series(self, columns: Sequence[Array], r: Record, k_ggi: float) -> tuple[Array, ...]:
-        """What is fitted, m series (N,), V, made of its columns in SI; ``k_ggi`` in V s^2."""
+        """The m series (N,), V, that are fitted, from its columns in SI; ``k_ggi`` in V s^2."""
         if not self.demodulated:
             return tuple(columns)
         inline, cross = columns
@@ -441,7 +441,7 @@ class RecordedSeries:
         return v if self.separate else np.asarray(np.array(o.signs, dtype=np.float64) @ v)[None]
 
     def through(self, G: Array, r: Record) -> Array:
-        """What the recorder lets pass of the output (..., N) before demodulation."""
+        """The output before demodulation (..., N) behind the recorder's low-pass."""
         if not self.demodulated:
             return G
         taps = r.low_pass.centred

@@ -126,7 +126,7 @@ class Taylor:
 
     @classmethod
     def constant(cls, value: Array | float) -> Taylor:
-        """What does not change."""
+        """A constant."""
         value = np.asarray(value, dtype=np.float64)
         return cls(value, np.zeros_like(value), np.zeros_like(value))
 

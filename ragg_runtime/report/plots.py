@@ -220,7 +220,7 @@ def _draw_bars(plot: Bars) -> str:
 
 
 def _scale_bars(plot: Bars) -> tuple[float, Array]:
-    """Where bars begin, and where they end: what is infinite is drawn beyond the others."""
+    """Where bars begin and end; infinite ones are drawn beyond the others."""
     values, level = np.array([b.value for b in plot.bars]), plot.threshold[0] if plot.threshold else 0.0
     top = max([float(np.max(values[np.isfinite(values)], initial=0.0)), level, 1e-12])
     ends = np.where(np.isfinite(values), values, 2.0 * top)

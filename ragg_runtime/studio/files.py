@@ -59,7 +59,7 @@ class Places:
         return path
 
     def listing(self, text: str) -> dict[str, object]:
-        """What of a folder can be opened: folders, model directories, test sheets, flights."""
+        """What can be opened in a folder: folders, model directories, test sheets, flights."""
         folder = self.inside(text) if text else self.roots[0]
         if not folder.is_dir():
             raise UserError("there is no such folder", where=folder)

@@ -91,7 +91,7 @@ async def _send_page(text: str, session: Session, request: Request) -> Response:
 
 
 async def _read(make: Callable[[Session, Request], Any], session: Session, request: Request) -> Response:
-    """What is asked for: bytes as they are (pictures begin with ``<``), everything else as JSON."""
+    """A result for the page: bytes as they are (pictures begin with ``<``), everything else as JSON."""
     content = await run_in_threadpool(make, session, request)
     if isinstance(content, bytes):
         kind = "image/svg+xml" if content.startswith(b"<") else "application/octet-stream"
@@ -225,7 +225,7 @@ async def _do(session: Session, request: Request) -> Response:
 
 
 async def _act(action: Callable[[Session, Body], Any], session: Session, body: Body) -> Any:
-    """What an action returns; UserError if it is asked for in another way than the page asks."""
+    """The result of an action; UserError if the request is not one that the page makes."""
     try:
         return await run_in_threadpool(action, session, body)
     except (LookupError, TypeError, AttributeError, ValueError, ArithmeticError) as error:

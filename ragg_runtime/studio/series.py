@@ -1,4 +1,4 @@
-"""What the figures of the page draw: windows of series, spectra, spectrograms, the map of harmonic and motion term, predictions."""
+"""Data of the page's figures: windows of series, spectra, spectrograms, the map of harmonic and motion term, predictions."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class Asked:
 
 
 HEAD = struct.Struct("<4sIddI")
-"""What is sent: mark, number of points, first abscissa, step, kind (0: values, 1: least and greatest values)."""
+"""Header of a series: mark, number of points, first abscissa, step, kind (0: values, 1: least and greatest values)."""
 
 
 @dataclass(frozen=True)
@@ -204,7 +204,7 @@ def _read_unexamined(s: State, flight: int) -> Sampled:
 
 
 class View:
-    """What is asked of an output of a flight, ``n`` in its comparison ``c``; of a flight kept for validation nothing is fitted."""
+    """A request for an output of a flight, ``n`` in its comparison ``c``; on a flight kept for ``validation`` nothing is fitted."""
 
     def __init__(self, s: State, a: Asked) -> None:
         self.s, self.a = s, a
@@ -261,7 +261,7 @@ class View:
         return sample(start, step, g.real if unit == DEMODULATED[0] else g.imag)
 
     def _predict_left(self) -> Array:
-        """What the ticked effects would leave of the residual (N,), V."""
+        """The residual (N,), V, that the ticked effects would leave."""
         d, effects = self.s.require("diagnosed"), self.a.effects
         if self.validation:
             raise UserError("no effect is predicted for a validation flight")

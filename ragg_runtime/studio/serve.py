@@ -148,7 +148,7 @@ class Guard:
             await (self._refuse(scope) or self._app)(scope, receive, _add_headers(send))
 
     def _refuse(self, scope: Scope) -> Response | None:
-        """What is answered in the place of the application; ``None``: the request may pass."""
+        """An answer in the place of the application's; ``None``: the request may pass."""
         headers, path, safe = Headers(scope=scope), scope["path"], scope["method"] in ("GET", "HEAD")
         hosts, origins = headers.getlist("host"), headers.getlist("origin")
         if len(hosts) != 1 or hosts[0] not in self._hosts:

@@ -56,7 +56,7 @@ class SeriesCache:
         self._lock = threading.Lock()
 
     def get(self, key: tuple[object, ...], make: Callable[[], T]) -> T:
-        """What belongs to ``key``."""
+        """The value of ``key``, made if it is missing."""
         series = self._series.get(key)
         if series is None:
             series = make()
@@ -92,7 +92,7 @@ class State:
     cache: SeriesCache = field(default_factory=SeriesCache)
 
     def require(self, name: str) -> Any:
-        """What is known under a name of the state; UserError if it is not yet."""
+        """A result of the state by name; UserError if there is none yet."""
         result = getattr(self, name)
         if result is None:
             raise UserError("there is no result yet", remedy=REMEDIES[name])

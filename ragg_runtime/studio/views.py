@@ -91,7 +91,7 @@ def _show_model(m: Loaded) -> Json:
 
 
 def _describe_kept(m: Loaded) -> str | None:
-    """Where the calibration comes from that is kept with the model, or why it does not count; ``None``: there is none."""
+    """The origin of the saved calibration, or why it does not count; ``None``: there is none."""
     if m.directory.calibration is None:
         return None
     try:
@@ -306,7 +306,7 @@ def _show_unexplained(d: Diagnosis) -> Json:
 
 
 def _show_validation(s: State) -> list[Json]:
-    """How the calibration of the other flights holds on those kept for validation."""
+    """The test of the calibration on the flights kept for validation."""
     result: Any = s.held
     names = [x.name for x in s.flights[len(s.flights) - s.kept :]]
     return show_sections(describe.describe_held(result.as_json(), names))
@@ -354,7 +354,7 @@ def mathml(latex: str, *, block: bool = False) -> str:
 
 
 def list_commands(s: State) -> list[str]:
-    """What does the same in a shell: first, as comments, the steps that are in the model already."""
+    """The same commands for a shell; first, as comments, the steps that are in the model already."""
     if s.loaded is None:
         return []
     model, first = shlex.quote(str(s.loaded.directory.path)), len(s.paths) - s.kept

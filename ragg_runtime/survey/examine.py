@@ -1,4 +1,4 @@
-"""What is done with one flight of a survey: diagnose it, and keep the figures.
+"""One flight of a survey: it is diagnosed, and its figures are kept.
 
 A job is text and numbers only, so that it can be sent to any process; the record is the same for any number of workers.
 """

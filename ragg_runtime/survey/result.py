@@ -121,14 +121,14 @@ def _recommend(done: Sequence[Record], s: Mapping[str, Any], model_dir: Path | s
 
 
 def _quote(r: Record) -> str:
-    """Where a flight is, from here if it is below, as a shell wants it."""
+    """The path of a flight, relative if it is below the current folder, quoted for a shell."""
     path = Path(r["file"])
     below = path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path
     return shlex.quote(clean(str(below)))
 
 
 def _list_claims(r: Record) -> list[tuple[str, frozenset[str]]]:
-    """What a flight asks for: an effect, and those of which one is needed."""
+    """The claims of a flight: an effect, and the group of alternatives that it stands for."""
     return [(e, frozenset({e, *r["indistinguishable"].get(e, ())})) for e in r["found"]]
 
 

@@ -140,7 +140,7 @@ def _describe_off_sheet(parameters: Sequence[Json]) -> Sections:
 
 
 def excess(error: float, noise: float) -> float:
-    """What of an error is not noise, Eo: the root of the difference of squares."""
+    """The part of an error beyond noise, Eo: the root of the difference of squares."""
     return math.sqrt(max(0.0, error**2 - noise**2))
 
 
@@ -215,7 +215,7 @@ def describe_held(c: Json, flights: Sequence[str], command: str = "", calibrate:
 
 
 def write_verdict(d: Json) -> str:
-    """What a diagnosis concludes, with its numbers, in one sentence or two."""
+    """The verdict of a diagnosis, with its numbers, in one sentence or two."""
     before, after, noise = d["error"]["before"], d["error"]["after"], d["noise_floor"]
     terms, floor = d["unexplained"]["terms"], f"the noise floor is {format_error(noise)} Eo"
     claims = join_names([_name_alternatives(e, d["groups"]) for e in d["found"]])
@@ -279,7 +279,7 @@ def _is_clear(p: Json, effect: Json) -> bool:
 
 
 def explain_patterns(values: Sequence[Json]) -> list[str]:
-    """What the combinations are that appear among the values."""
+    """The definition of each combination that appears among the values."""
     named = {str(p["name"]).rpartition(" ")[0] for p in values}
     patterns = [f"{name} = {PATTERNS[name]}" for name in PATTERNS if name in named]
     return [f"{', '.join(patterns)}, each accelerometer weighted by its scale factor."] if patterns else []
@@ -333,7 +333,7 @@ def describe_diagnosis(d: Json, command: str = "") -> Sections:
 
 
 def _list_remarks(d: Json) -> list[str]:
-    """What belongs to the verdict: its reason, groups, flights that disagree, from when on the model fails."""
+    """Remarks on the verdict: its reason, groups, flights that disagree, from when on the model fails."""
     judged = d["converged"] or d["verdict"] == "partly-explained"
     remarks = [f"Note: {text}." for text in d["notes"]] if judged else []
     for g in d["groups"]:
@@ -398,7 +398,7 @@ def _suggest_own_effect(u: Json) -> Sections:
 
 
 def write_motion(p: Json) -> str:
-    """What a motion would separate, from the JSON of a proposal."""
+    """The effects that a motion would separate, from the JSON of a proposal."""
     if not p["separates"]:
         return f"no motion within the limits separates {p['effect']} from {p['rival']} (at best {number(p['separation_then'], 2)} σ)"
     size = (

@@ -76,7 +76,7 @@ def describe_calibration(c: Json, flights: Sequence[str], command: str = "") -> 
 def tabulate_parameters(
     combinations: Sequence[Json], parameters: Sequence[Json], *, detail: bool = False
 ) -> Sections:
-    """What a record determines of the parameters, and every one of them next to its test sheet."""
+    """The combinations that a record determines, and every parameter next to its test sheet."""
     clear = [p for p in combinations if significance(p) > CLEAR]
     value: Columns = {"parameter": label_parameter, "value": format_value}
     sheet: Columns = {
@@ -130,7 +130,7 @@ def _describe_drift(d: Json) -> Sections:
 
 
 def _describe_certificate(rows: Sequence[Json], certified: Json) -> Sections:
-    """As planned and as reached: the channels and combinations, and in detail each parameter, those that were not reached first."""
+    """Planned and reached: channels and combinations, then each parameter, those that were not reached first."""
     columns: Columns = {
         "parameter": label_parameter,
         "value": lambda q: "not determined" if q["value"] is None else format_value({**q, "std": q["std_reached"]}),

@@ -137,7 +137,7 @@ class Contents:
         return list(dict.fromkeys(x["column"] for x in self.inputs() if x["column"] != DISC))
 
     def limits(self) -> list[str]:
-        """What is described less well than by Python, in words."""
+        """Limits of the exported program against Python, in sentences."""
         return [
             f"{q.symbol} delays the motion: a series of second order in it, accurate while it is far below the time scale of the "
             "motion (ragg itself interpolates the motion at the delayed instants)"

@@ -45,7 +45,7 @@ def recoil(values: Values, x: Signal, time: Array, delay: float = 0.0) -> tuple[
 
 
 def find_resonance_loss(values: Values, voltages: Callable[[Array], Array], time: Array) -> Array:
-    """What a resonance takes from voltages (n, N) of accelerometers, V, with (u s + v s^2)/(1 + d s + b s^2) for each."""
+    """Loss of voltages (n, N), V, to a resonance: each accelerometer's behind (u s + v s^2)/(1 + d s + b s^2)."""
     if len(time) < 2 or not (np.any(values["u"]) or np.any(values["v"])):
         return np.zeros((len(values["u"]), len(time)))
     d, b = oscillator(values)
