@@ -356,11 +356,9 @@ def _read_columns(
     chosen: Mapping[str, tuple[DataColumn, Entry]],
 ) -> DataTable:
     """Time and channels as numbers: codes and rows without a time left out and counted, factors applied."""
-    columns = []
+    columns, notes = [], list[str]()
     if times:
         time, table = _read_time(times, table, t)
-    notes = list(table.notes)
-    if times:
         columns.append(_leave_out_codes(time, t.null, notes))
     for name, (c, e) in chosen.items():
         read = replace(_read_numbers(c, table, e.null), name=name, unit=e.unit)
@@ -373,7 +371,7 @@ def _read_columns(
     if 0 < lost < len(there):
         notes.append(f"{count(lost, 'row')} without a time left out")
         columns = [replace(c, values=c.values[there]) for c in columns]
-    return replace(table, columns=tuple(columns), notes=tuple(notes))
+    return replace(table, columns=tuple(columns), notes=(*table.notes, *notes))
 
 
 def _read_time(columns: Sequence[DataColumn], table: DataTable, t: TimeEntry) -> tuple[DataColumn, DataTable]:

@@ -262,17 +262,11 @@ def _round_rate(step: float, error: float) -> float:
 
 
 def find_clock_steps(time: Array, present: NDArray[np.bool_]) -> list[ClockStep]:
-    """Places where a clock was set while sampling went on, or sampling paused: the stamps move on by another time than the samples.
+    """Places, in order, where a clock was set while sampling went on, or sampling paused: the stamps move on by another time than the
+    samples. More than a few are jitter, and none is reported.
 
-    Parameters
-    ----------
-    time, present : (N,) array
-        Instants on the grid of a flight, s; samples that the file has: a gap is a place where the stamps moved on.
-
-    Returns
-    -------
-    list of ClockStep
-        In order; more than a few are jitter, and none is reported.
+    ``time`` (N,): instants on the grid of a flight, s; ``present`` (N,): samples that the file has, a gap is a place where the stamps
+    moved on.
     """
     rows = np.flatnonzero(present)
     if len(rows) < 4 * BESIDE:
@@ -319,17 +313,9 @@ def _find_slews(time: Array, rows: NDArray[np.int64], late: Array, step: float) 
 
 
 def fit_even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, float, Array]:
-    """The steady clock by which the samples were taken, whatever their stamps.
+    """The steady clock by which the samples were taken, whatever their stamps; ``time``, ``present`` as in :func:`find_clock_steps`.
 
-    Parameters
-    ----------
-    time, present : (N,) array
-        As in :func:`find_clock_steps`.
-
-    Returns
-    -------
-    float, float, (N,) array
-        First instant and interval, s; by how much, s, the clock of each stamp had been set, by other than whole intervals.
+    First instant and interval, s; by how much, s, the clock of each stamp, (N,), had been set, by other than whole intervals.
     """
     every, steps = np.arange(len(time)), [c for c in find_clock_steps(time, present) if c.part]
     slewed = np.any([(every >= c.row) & (every < c.until) for c in steps], axis=0)
