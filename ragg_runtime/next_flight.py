@@ -150,8 +150,8 @@ def _list_possible(
 # --- the motion that calibrates: what the parameters add to the variance of the compensated channels (A-optimal), or the volume of what
 # they leave uncertain there (D-optimal; A. Atkinson, A. Donev, R. Tobias, Optimum Experimental Designs, 2007, ch. 10)
 
+# share of the channels' variance by parameters below which a direction does not count for D: its volume would be of nothing
 MATTER = 1e-3
-"""Share of the channels' variance by parameters below which a direction does not count for D: its volume would be of nothing."""
 
 
 @dataclass(frozen=True)
@@ -299,5 +299,5 @@ def _certify_one(x: Json, calibrated: Mapping[Any, Json]) -> dict[str, Any]:
     }
 
 
+# a standard deviation within so much of the planned one counts as reached: noise is known to some per cent
 REACHED = 1.1
-"""A standard deviation within so much of the planned one counts as reached: noise is known to some per cent."""

@@ -28,14 +28,11 @@ from ragg_runtime.workspace import Loaded
 
 Array = NDArray[np.float64]
 
+# eleven days at 100 Hz: what is simulated is held in memory, some hundreds of bytes a sample
 MOST_SAMPLES = 1e8
-"""Eleven days at 100 Hz: what is simulated is held in memory, some hundreds of bytes a sample."""
-
+# mean and rms of a_x, a_y, a_z, mg: upright in light turbulence
 IN_FLIGHT = ((15.0, 20.0), (15.0, 20.0), (1000.0, 50.0))
-"""Mean and rms of a_x, a_y, a_z, mg: upright in light turbulence."""
-
-GEOLOGY = 20e-9
-"""Rms of the varying gradient, each component, s^-2."""
+GEOLOGY = 20e-9  # rms of the varying gradient, each component, s^-2
 
 
 def simulate(m: Loaded, effects: Sequence[str] = (), **options: Any) -> Flight:
@@ -128,8 +125,8 @@ def simulate_flight(
     return flight
 
 
+# how the mounting of [model] order turns in the simulator
 _ROTATIONS: Mapping[int | str, Rotations] = {1: "first-order", 2: "second-order", "exact": "exact"}
-"""How the mounting of ``[model] order`` turns in the simulator."""
 
 
 def _collect_auxiliaries(
@@ -201,8 +198,8 @@ def _parse_numbers(effect: DerivedEffect, name: str, text: str, instrument: Inst
     return si if len(si) == count and not q.shared else si[0]
 
 
+# a steady rate (negative: backwards, 0: none) and swings: amplitude, frequency, phase at the beginning
 FORM = "[DISC:]HZ[,RAD@HZ[@RAD]]..."
-"""A steady rate (negative: backwards, 0: none) and swings: amplitude, frequency, phase at the beginning."""
 
 
 def parse_turning(

@@ -163,8 +163,8 @@ def now() -> str:
     return datetime.now(UTC).isoformat(timespec="seconds")
 
 
+# a flight as it was read, a path, a pandas DataFrame, an xarray Dataset, or a dict of arrays; or a list of these
 Flights = Flight | Path | str | Any
-"""A flight as it was read, a path, a pandas DataFrame, an xarray Dataset, or a dict of arrays; or a list of these."""
 
 
 def read_flights(

@@ -17,29 +17,18 @@ What is certain in a record (clipping, spikes, jumps, lines, wrong units) has no
 
 from __future__ import annotations
 
+# largest share of records without any missing effect whose verdict may be another one than adequate
 PROMISED = 0.05
-"""Largest share of records without any missing effect whose verdict may be another one than ``adequate``."""
-
+# of the whole catalogue, the first effect. Most of the promise goes here: to find effects is what the diagnosis is for.
 CATALOGUE = 0.03
-"""Of the whole catalogue, the first effect. Most of the promise goes here: to find effects is what the diagnosis is for."""
-
+# of each effect beside the first, of which there are three at most: a chance companion spoils a finding that is right
 COMPANION = 0.005
-"""Of each effect beside the first, of which there are three at most: a chance companion spoils a finding that is right."""
-
-REMAINDER = 0.004
-"""Of all generic terms in the residual, some 2,000: the largest must be 4.9 sigma."""
-
+REMAINDER = 0.004  # of all generic terms in the residual, some 2,000: the largest must be 4.9 sigma
+# how steady terms, terms that come and go, and lines in the spectrum divide REMAINDER
 REMAINDER_SHARES = (0.5, 0.25, 0.25)
-"""How steady terms, terms that come and go, and lines in the spectrum divide :data:`REMAINDER`."""
-
-LEVEL = 1e-4
-"""Of the remark that the noise level follows something, over all quantities tested."""
-
+LEVEL = 1e-4  # of the remark that the noise level follows something, over all quantities tested
+# of holds_until_s: a change is said to be in flights in which there is none (over all of their blocks of time)
 CHANGE = 0.01
-"""Of ``holds_until_s``: a change is said to be in flights in which there is none (over all of their blocks of time)."""
-
-FROZEN = 0.01
-"""Of the test that a calibration that was kept is still the instrument's."""
-
+FROZEN = 0.01  # of the test that a calibration that was kept is still the instrument's
+# of a survey's own statements: that so many flights are no false alarms, and, for each parameter, that it varies
 SURVEY = 0.01
-"""Of a survey's own statements: that so many flights are no false alarms, and, for each parameter, that it varies."""

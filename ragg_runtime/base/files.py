@@ -168,8 +168,8 @@ def _make_own_folder() -> Path:
     return Path(folder)
 
 
+# libraries on which the numbers of a result depend
 LIBRARIES = ("numpy", "scipy", "sympy", "pint", "pandas", "pyarrow", "xarray", "h5netcdf", "h5py")
-"""Libraries on which the numbers of a result depend."""
 
 
 MISSING = "not installed"

@@ -19,14 +19,10 @@ import click
 if TYPE_CHECKING:
     import threadpoolctl
 
+# passes over the flights that a command takes, about
 PASSES = {"compare": 9.0, "diagnose": 10.5, "add": 17.0}
-"""Passes over the flights that a command takes, about."""
-
-QUIET = 4.0
-"""A command that takes no longer than this shows no progress, s."""
-
-INTERVAL = 15.0
-"""Time between two lines where stderr is a file, s."""
+QUIET = 4.0  # a command that takes no longer than this shows no progress, s
+INTERVAL = 15.0  # time between two lines where stderr is a file, s
 
 _listener: ContextVar[Callable[[float], None] | None] = ContextVar("listener", default=None)
 

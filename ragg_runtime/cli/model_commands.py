@@ -41,8 +41,7 @@ else:
     api, io, pages, simulator = map(Later, ("api", "io", "report.pages", "simulate"))
 
 
-STUDIO_NEEDS = ("starlette", "uvicorn", "latex2mathml")
-"""Modules that the extra ``studio`` brings."""
+STUDIO_NEEDS = ("starlette", "uvicorn", "latex2mathml")  # modules that the extra studio brings
 
 
 @click.command(cls=Command, json=False, hidden=True)
@@ -292,8 +291,8 @@ def studio(model_dir: Path | None, flights: Sequence[Path], port: int, no_browse
     serve(model_dir, flights, port, click.echo, browser=not no_browser)
 
 
+# what is hidden in the flight: effect, parameter, its values in A1 ... A4, 1/K.
 HIDDEN = ("thermal-scale", "dK1_dT", (0.0, 0.0, 6e-8, 0.0))
-"""What is hidden in the flight: effect, parameter, its values in A1 ... A4, 1/K."""
 
 
 def make_flight(path: Path) -> None:

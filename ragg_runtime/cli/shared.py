@@ -39,14 +39,12 @@ if TYPE_CHECKING:
 else:
     api = Later("api")
 
+# names of stdout; where JSON is asked for there, it is all that is written there
 STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
-"""Names of stdout; where JSON is asked for there, it is all that is written there."""
-
+# commands that show the notes on the flights; the others, which come after, count them
 SHOW_NOTES = ("compare", "diagnose")
-"""Commands that show the notes on the flights; the others, which come after, count them."""
-
+# a model directory's own files, and the folder with the derived code
 OF_A_MODEL = ("model.toml", "history.json", "calibration.json", "mapping.toml", "generated")
-"""A model directory's own files, and the folder with the derived code."""
 
 
 class OutputFile(click.Path):

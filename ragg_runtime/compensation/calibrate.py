@@ -29,8 +29,8 @@ from ragg_runtime.workspace import Loaded
 
 Array = NDArray[np.float64]
 
+# about a parameter whose standard deviation the record at least halves, the record says more than the sheet
 LEARNED = 0.5
-"""About a parameter whose standard deviation the record at least halves, the record says more than the sheet."""
 
 
 @dataclass(frozen=True)
@@ -179,8 +179,8 @@ def fit_r_factors(f: Fitted, r_factors: Sequence[Array]) -> tuple[Array, Array]:
 
 # --- calibration.json of a model directory: the calibration that was kept ---
 
+# least diagonal number of the square root of the information: the sheet alone, in its own units, says 1
 LEAST = 1e-3
-"""Least diagonal number of the square root of the information: the sheet alone, in its own units, says 1."""
 
 
 @dataclass(frozen=True)

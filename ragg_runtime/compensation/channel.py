@@ -21,17 +21,12 @@ from ragg_runtime.signals.demodulators import find_demodulator
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
+# share of the kernel that may fall on missing samples; they are bridged by the gradient found around them
 HOLES = 0.05
-"""Share of the kernel that may fall on missing samples; they are bridged by the gradient found around them."""
-
-FELT = 1e-4
-"""Share of the kernel on missing samples from which their bridging is reported."""
-
+FELT = 1e-4  # share of the kernel on missing samples from which their bridging is reported
+# rate, Hz, at which the uncertainty is followed: what the low-pass lets through does not change faster than 0.25 Hz
 FINE = 4.0
-"""Rate, Hz, at which the uncertainty is followed: what the low-pass lets through does not change faster than 0.25 Hz."""
-
-MARGIN = 0.1
-"""By this share of its calibrated range a channel may go beyond it before that is flagged."""
+MARGIN = 0.1  # by this share of its calibrated range a channel may go beyond it before that is flagged
 
 
 class Quality(IntFlag):
@@ -45,8 +40,7 @@ class Quality(IntFlag):
     CALIBRATION = 32
 
 
-NO_VALUE = Quality.EDGE | Quality.GAP
-"""Bits of samples without a value."""
+NO_VALUE = Quality.EDGE | Quality.GAP  # bits of samples without a value
 
 MEANING = {
     Quality.EDGE: "too near an end of the record for the low-pass: no value",

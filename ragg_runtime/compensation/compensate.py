@@ -61,15 +61,13 @@ from ragg_runtime.workspace import Loaded
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
+# frequencies, Hz, over which a density is averaged: below, the survey's own signal is larger; above, low-passes differ
 BAND = (0.02, 0.15)
-"""Frequencies, Hz, over which a density is averaged: below, the survey's own signal is larger; above, low-passes differ."""
-
-WINDOW = 128.0
-"""Length of the windows of a measured density, s."""
+WINDOW = 128.0  # length of the windows of a measured density, s
 
 Kind = Literal["frozen", "self", "crossed", "smoothed"]
+# samples of a flight, their parameters (n,) less the calibrated ones, and a root (n, m) of the covariance, in scales
 Part = tuple[slice, "Array | float", Array]
-"""Samples of a flight, their parameters (n,) less the calibrated ones, and a root (n, m) of the covariance, in scales."""
 
 KINDS: tuple[Kind, ...] = ("self", "crossed", "smoothed", "frozen")
 

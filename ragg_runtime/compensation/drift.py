@@ -30,19 +30,16 @@ from ragg_runtime.io import Flight
 
 Array = NDArray[np.float64]
 
+# decades of the standard deviation after an hour, over the sheet's error, within which a walk is sought
 SLOWEST, FASTEST = -6.0, 1.0
-"""Decades of the standard deviation after an hour, over the sheet's error, within which a walk is sought."""
-
-WORTH = 4.5
-"""Log evidence that a walk must gain: what distinguishes two explanations elsewhere."""
+WORTH = 4.5  # log evidence that a walk must gain: what distinguishes two explanations elsewhere
 
 HOUR = 3600.0
 
+# steps a turn by which parameters follow a line: their frequency is far above that of the gradient, two a turn
 STAIRS = 8
-"""Steps a turn by which parameters follow a line: their frequency is far above that of the gradient, two a turn."""
-
+# variance of a random walk about the line between its means over successive blocks, in that of a step over a block
 WITHIN = 0.128
-"""Variance of a random walk about the line between its means over successive blocks, in that of a step over a block."""
 
 NEAR, TURNS = 0.1, 4
 """Of the sheet's error: how far the mean of the smoothed parameters may be from those about which they are linear; and most

@@ -40,8 +40,7 @@ SEGMENTS, SAMPLES = 4, 80_000
 """Most segments of a flight, and their samples together, from which the noise is estimated: half of a fit's, in half the time; the
 noise behind the low-pass comes out to 2 % at 100 Hz."""
 
-SUSPECTS = 5
-"""Parameters that are named, at most, where the calibration does not hold."""
+SUSPECTS = 5  # parameters that are named, at most, where the calibration does not hold
 
 
 @dataclass(frozen=True)

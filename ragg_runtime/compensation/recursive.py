@@ -36,15 +36,14 @@ from ragg_runtime.workspace import Loaded
 
 Array = NDArray[np.float64]
 
-UPDATE = 0.25
-"""s between steps of the gradient's walk and of forgetting; the state is constant in between."""
+UPDATE = 0.25  # s between steps of the gradient's walk and of forgetting; the state is constant in between
 
 STEEPER = 2.0
 """Walk of the inline channel over that of the cross one: in a field without a preferred direction Gamma_xx - Gamma_yy
 varies twice as much as Gamma_xy; its noise is twice as large too."""
 
+# standard deviation of the gradient before anything is known, Eo: three times the Earth's own
 UNKNOWN_EO = 1e4
-"""Standard deviation of the gradient before anything is known, Eo: three times the Earth's own."""
 
 
 @dataclass(frozen=True)

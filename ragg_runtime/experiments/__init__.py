@@ -44,12 +44,10 @@ class Printed:
         return abs(ours - self.value) <= 0.5000001 * 10.0 ** (int(exponent or 0) - decimals)
 
 
-MASS = 486.0
-"""kg, Section III.A."""
-MASS_POSITION = (1.2, 0.0, 0.0)
-"""m, at the start."""
+MASS = 486.0  # kg, Section III.A
+MASS_POSITION = (1.2, 0.0, 0.0)  # m, at the start
+# angular rate of the mass: mean and amplitude in deg/h, and the angular frequency of the sine in rad/s
 MASS_RATE = (3600.0, 360.0, 0.0628)
-"""Angular rate of the mass: mean and amplitude in deg/h, and the angular frequency of the sine in rad/s."""
 
 TABLE_VI: Mapping[str, tuple[float, float]] = {
     "a_x": (0.08, 0.005),
@@ -61,11 +59,9 @@ TABLE_VI: Mapping[str, tuple[float, float]] = {
 }
 """Constant and amplitude of sin(Omega t): g for a, deg/h for omega."""
 
+# mean and standard deviation of a_z, mg, and of each angular rate, deg/h
 TABLE_VII = ((100.0, 10.0, 0.0, 0.0), (100.0, 10.0, 100.0, 50.0), (200.0, 10.0, 100.0, 50.0))
-"""Mean and standard deviation of a_z, mg, and of each angular rate, deg/h."""
-
-HORIZONTAL = 0.15
-"""Section III.C: rms of a_x and of a_y over that of a_z."""
+HORIZONTAL = 0.15  # Section III.C: rms of a_x and of a_y over that of a_z
 
 _VIII = """
         M_in    M_cs    Ms_in   Ms_cs  sigma_in  sigma_cs  sigmas_in  sigmas_cs
@@ -103,8 +99,7 @@ DIFFERENCE: Mapping[str, Printed] = {
 """Differences of the demodulated outputs from the centre gradients."""
 
 
-BANDWIDTH = 0.2
-"""Hz, by which the paper turns a standard deviation into a noise density."""
+BANDWIDTH = 0.2  # Hz, by which the paper turns a standard deviation into a noise density
 
 DENSITIES: tuple[tuple[str, int, Printed], ...] = (
     ("analytical", 1, Printed("0.13", "Eo/sqrt(Hz)", "Section III.C")),

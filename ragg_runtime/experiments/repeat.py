@@ -29,11 +29,9 @@ from ragg_runtime.signals.demodulators import Demodulated, demodulate
 
 Array = NDArray[np.float64]
 
+# Eq. 17-19 and Eq. 42-47, as derived.
 DERIVED: dict[str, Any] = {"analytical": analytical, "simplified": simplified}
-"""Eq. 17-19 and Eq. 42-47, as derived."""
-
-LARGEST = 30.0
-"""arcsec: the largest misalignment angle of Table V."""
+LARGEST = 30.0  # arcsec: the largest misalignment angle of Table V
 
 DRAWS = 1000
 
@@ -92,17 +90,15 @@ def draw_angles() -> Array:
     return np.concatenate([corners, inside])
 
 
-RATE = 16.0
-"""Hz, of III.A and III.B."""
+RATE = 16.0  # Hz, of III.A and III.B
 
 
 # --- III.A: who measures the gradient at the centre? ----------------------------------------------------
 
 MODELS = ("numerical", *DERIVED)
-ROUND = 460.0
-"""s; the demodulator's low-pass takes about 65 s off."""
+ROUND = 460.0  # s; the demodulator's low-pass takes about 65 s off
+# of the low-pass, dB, the last as of the settings: the paper only says FIR
 ATTENUATIONS = (40.0, 60.0, 80.0, 100.0)
-"""Of the low-pass, dB, the last as of the settings: the paper only says FIR."""
 
 
 def repeat_multifrequency() -> Experiment:
@@ -153,8 +149,7 @@ def subtract_centre(run: Simulation, attenuation: float) -> Mapping[str, tuple[A
 
 TURNS = 64
 
-WITH_MASS = PointMass(paper.MASS, paper.MASS_POSITION)
-"""The test mass of Section III.A where it starts."""
+WITH_MASS = PointMass(paper.MASS, paper.MASS_POSITION)  # the test mass of Section III.A where it starts
 
 
 def repeat_dynamic() -> Experiment:
@@ -227,11 +222,9 @@ def run_regular(instrument: Instrument | None = None, *, turns: int = 1, **setti
 
 # --- III.C: turbulence ---------------------------------------------------------------------------------
 
+# (Experiment, entry of Table VIII) -> its values over seeds, or over draws of vartheta_x
 Values = Mapping[tuple[int, str], Array]
-"""(Experiment, entry of Table VIII) -> its values over seeds, or over draws of vartheta_x."""
-
-SAMPLED, DURATION = 20.0, 600.0
-"""Hz and s."""
+SAMPLED, DURATION = 20.0, 600.0  # Hz and s
 
 SEEDS = range(8)
 EXPERIMENTS = (1, 2, 3)

@@ -27,8 +27,8 @@ KINDS: Mapping[str, tuple[str, ...]] = {
 }
 """Each kind of low-pass, and the keys that it needs (``cutoff`` of fir may be left out)."""
 
+# of a Butterworth low-pass: beyond it, at a hundredth of the sampling rate, its sections lose what precision there is
 MOST_ORDER = 12
-"""Of a Butterworth low-pass: beyond it, at a hundredth of the sampling rate, its sections lose what precision there is."""
 
 _UNITS: Mapping[str, str] = {"cutoff": "Hz", "length": "s", "delay": "s", "rate": "Hz"}
 _KEYS = ("kind", "cutoff", "order", "length", "delay", "rate")

@@ -82,8 +82,8 @@ PARAMETERS: tuple[AccelerometerParameter, ...] = (
 )
 """The accelerometer's parameters, in the order in which every parameter vector holds them."""
 
+# the same by name
 PARAMETER: Mapping[str, AccelerometerParameter] = MappingProxyType({p.name: p for p in PARAMETERS})
-"""The same by name."""
 
 DISC_UNITS: Mapping[str, str] = MappingProxyType({"radius": "m", "spin_frequency": "Hz", "g0": "m/s^2"})
 

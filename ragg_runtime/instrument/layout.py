@@ -24,15 +24,14 @@ Vector3 = tuple[float, float, float]
 X_AXIS: Vector3 = (1.0, 0.0, 0.0)
 Y_AXIS: Vector3 = (0.0, 1.0, 0.0)
 Z_AXIS: Vector3 = (0.0, 0.0, 1.0)
-TANGENTIAL: Vector3 = (0.0, 1.0, 0.0)
-"""Direction of an input axis along the turn, in (e_r, e_t, e_a)."""
+TANGENTIAL: Vector3 = (0.0, 1.0, 0.0)  # direction of an input axis along the turn, in (e_r, e_t, e_a)
 
 AXIAL: Vector3 = (0.0, 0.0, 1.0)
 
 QUARTER = math.pi / 2
 
+# highest multiple of the spin rate that second-order terms of a rotating force reach (Eq. 17).
 HIGHEST_HARMONIC = 4
-"""Highest multiple of the spin rate that second-order terms of a rotating force reach (Eq. 17)."""
 
 
 @dataclass(frozen=True)
@@ -223,12 +222,11 @@ def paper(radius: float, spin_frequency: float) -> Layout:
     return Layout(discs=(Disc(name="", spin_frequency=spin_frequency),), places=places)
 
 
-PAPER = paper(1.0, 1.0)
-"""The paper's layout, where only names, signs and number matter."""
+PAPER = paper(1.0, 1.0)  # the paper's layout, where only names, signs and number matter
 
 
+# share of its accelerometers' gains below which an output is not made to see the gradient across the spin axis
 CANCELLED = 1e-3
-"""Share of its accelerometers' gains below which an output is not made to see the gradient across the spin axis."""
 
 
 def gain(o: Output, k1: Array, R: Array) -> complex:
@@ -297,8 +295,7 @@ def list_constants(layout: Layout) -> Mapping[str, tuple[float, ...]]:
     return values
 
 
-PARTS = 1_000_000
-"""Of a degree: what an angle on the disc is written in."""
+PARTS = 1_000_000  # of a degree: what an angle on the disc is written in
 
 
 def find_degrees(layout: Layout) -> tuple[Fraction | None, ...]:

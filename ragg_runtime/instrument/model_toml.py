@@ -186,8 +186,7 @@ def _read_effect(entry: object, where: str, u: Units, count: int) -> EffectSetti
     return EffectSetting(effect_id, MappingProxyType(quantities), expression, frozenset(fixed))
 
 
-_EXPRESSION = ("stage", "add")
-"""Keys of an effect in one line, beside its parameters."""
+_EXPRESSION = ("stage", "add")  # keys of an effect in one line, beside its parameters
 
 
 def _read_expression(

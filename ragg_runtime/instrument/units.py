@@ -26,11 +26,8 @@ if TYPE_CHECKING:
 
 Value = TypeVar("Value", float, NDArray[np.float64])
 
-EOTVOS = 1e-9
-"""1 Eo in s^-2."""
-
-STANDARD_G0 = 9.8
-"""What g means in a model.toml with [[disc]] that does not say it, m/s^2: the paper's value."""
+EOTVOS = 1e-9  # 1 Eo in s^-2
+STANDARD_G0 = 9.8  # what g means in a model.toml with [[disc]] that does not say it, m/s^2: the paper's value
 
 DIMENSIONLESS = ("1", "", "-", "dimensionless")
 
@@ -275,11 +272,9 @@ _NAMED = {
     }.items()
     for spelling in spellings
 }
-_DEGREES = re.compile(r"(?:deg(?:rees?)?|°|o)[ ._]*([CFK])", re.IGNORECASE)
-"""Of temperature: Deg. C, °K."""
-
+_DEGREES = re.compile(r"(?:deg(?:rees?)?|°|o)[ ._]*([CFK])", re.IGNORECASE)  # of temperature: Deg. C, °K.
+# usual abbreviations, read so if only this reading has the dimension
 _LETTERS = {"C": "degC", "F": "degF", "k": "K", "ms-2": "m s-2", "ms^-2": "m s-2", "mps2": "m s-2", "gn": "g"}
-"""Usual abbreviations, read so if only this reading has the dimension."""
 
 _WORDS = frozenset((
     "deg", "degs", "degree", "degrees", "rad", "rads", "radian", "radians", "s", "sec", "secs", "second", "seconds", "h",

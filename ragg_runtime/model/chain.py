@@ -46,8 +46,8 @@ FOR_PROCESSOR: tuple[tuple[str, ...], ...] = (
 )
 """Tried in turn: not every compiler knows every processor."""
 
+# how long a compiler is waited for, s: half a second is usual, and half a minute for ziglang, which compiles its own library first
 PATIENCE = 60.0
-"""How long a compiler is waited for, s: half a second is usual, and half a minute for ziglang, which compiles its own library first."""
 
 
 class BuildError(Exception):
@@ -149,11 +149,8 @@ class ChainModule(Protocol):
     values_of: Callable[[int, Array], Array]
 
 
-Inputs = Sequence[ArrayLike] | NDArray[np.floating]
-"""One series of N samples each, in the order of the model."""
-
-BLOCK = 4096
-"""Samples that NumPy evaluates at a time, in cache."""
+Inputs = Sequence[ArrayLike] | NDArray[np.floating]  # one series of N samples each, in the order of the model
+BLOCK = 4096  # samples that NumPy evaluates at a time, in cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -287,8 +284,7 @@ class Chain:
         return time, rows, values, phi
 
 
-_Case = tuple[Array, Sequence[Array], Array, Array | None]
-"""Times (N,), inputs, parameters, disc angle (N,)."""
+_Case = tuple[Array, Sequence[Array], Array, Array | None]  # times (N,), inputs, parameters, disc angle (N,)
 
 
 def _at(x: Array | None) -> ctypes.c_void_p:

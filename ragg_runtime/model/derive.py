@@ -35,8 +35,7 @@ if TYPE_CHECKING:
 
 E = TypeVar("E")
 
-_SYMPY = threading.RLock()
-"""One thread at a time derives: SymPy's caches are not made for several."""
+_SYMPY = threading.RLock()  # one thread at a time derives: SymPy's caches are not made for several
 
 
 def list_known(instrument: Instrument) -> Mapping[str, SymbolicEffect]:
@@ -223,8 +222,8 @@ def read_chain(instrument: Instrument) -> str:
     return resources.files(package).joinpath("chain.py").read_text("utf-8")
 
 
+# derivations that are kept, at most half a megabyte each: enough for each effect of the catalogue, and pairs of the usual ones
 MOST_KEPT = 200
-"""Derivations that are kept, at most half a megabyte each: enough for each effect of the catalogue, and pairs of the usual ones."""
 
 
 def identify(instrument: Instrument, ids: Sequence[str] | None = None, *, candidates: bool = True) -> str:
@@ -274,11 +273,8 @@ def keep_files(digest: str, files: Mapping[str, str]) -> None:
         return
 
 
-GROUP = "ragg.effects"
-"""The group of entry points of packages; each is a module with ``EFFECT``."""
-
-VARIABLE = "RAGG_EFFECTS"
-"""Names a folder of Python files with ``EFFECT``."""
+GROUP = "ragg.effects"  # the group of entry points of packages; each is a module with EFFECT
+VARIABLE = "RAGG_EFFECTS"  # names a folder of Python files with EFFECT
 
 
 def list_own_sources() -> Mapping[str, str]:

@@ -22,10 +22,9 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.model_toml import parse_instrument
 
 MODEL, GENERATED, HISTORY, CALIBRATION = "model.toml", "generated", "history.json", "calibration.json"
+# how the columns of the instrument's flight files are read (see flight.mapping); only what the user gives replaces it
 MAPPING = "mapping.toml"
-"""How the columns of the instrument's flight files are read (see ``flight.mapping``); only what the user gives replaces it."""
-DIGEST = "digest"
-"""The file in generated/ that says for which model its files were derived."""
+DIGEST = "digest"  # the file in generated/ that says for which model its files were derived
 
 LONGEST = 1 << 26  # bytes of history.json and of calibration.json
 _PATIENCE = 30.0  # s; a change holds the lock for a fraction of a second

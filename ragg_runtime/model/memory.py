@@ -25,33 +25,21 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 SLIPPING = ("slip", "play", "cycle")
-RELAXING = ("heat", "creep", "flow")
-"""Kinds of memory that are alike, each of one effect."""
-
-FORGOTTEN = 14.0
-"""Time constants after which a linear response has forgotten: exp(-14) is a millionth."""
-
+RELAXING = ("heat", "creep", "flow")  # kinds of memory that are alike, each of one effect
+FORGOTTEN = 14.0  # time constants after which a linear response has forgotten: exp(-14) is a millionth
+# s after which it no longer matters in which state a slipping part began: the force has changed often enough
 SLIPPED = 120.0
-"""s after which it no longer matters in which state a slipping part began: the force has changed often enough."""
-
-WHOLE = 1e9
-"""s: a temperature may turn but once in a record."""
-
-SETTLED = 3.0
-"""s in which a turning disc has turned the force over, so that what can slip has slipped."""
-
-LEAST = 2e-3
-"""Least value of what describes a memory, in neutral ones: a fit may try others on its way."""
+WHOLE = 1e9  # s: a temperature may turn but once in a record
+SETTLED = 3.0  # s in which a turning disc has turned the force over, so that what can slip has slipped
+LEAST = 2e-3  # least value of what describes a memory, in neutral ones: a fit may try others on its way
 
 SHARE = 0.15
 """Width of friction at which a search begins, over the standard deviation of the force in the disc's plane: from 0.01 to 0.4
 the signatures beside the calibration correlate by 0.7 and more (two flights)."""
 
-FINER = 4
-"""Instants a sample at which what slips is followed: a force turns back between samples."""
-
+FINER = 4  # instants a sample at which what slips is followed: a force turns back between samples
+# relative step of the width for the derivative by it: what slips has no derivative at some instants
 DIFFERENCE = 1e-3
-"""Relative step of the width for the derivative by it: what slips has no derivative at some instants."""
 
 
 @dataclass(frozen=True)

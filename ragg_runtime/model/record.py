@@ -34,24 +34,17 @@ from ragg_runtime.signals.fir import convolve
 Array = NDArray[np.float64]
 
 
-PARALLEL = 1e-9
-"""Sine of the angle between two input axes below which they are parallel."""
-
+PARALLEL = 1e-9  # sine of the angle between two input axes below which they are parallel
+# further samples on either side of a part of a record: second derivatives are then those of the whole
 HALO = 32
-"""Further samples on either side of a part of a record: second derivatives are then those of the whole."""
 
 
+# the chain's name for the reading of its own output's converter, whatever that output is called
 READING = "G_out"
-"""The chain's name for the reading of its own output's converter, whatever that output is called."""
-
+# rate and acceleration of the disc angle: in every record, with an encoder or without
 SPIN = ("d_spin_angle", "d2_spin_angle")
-"""Rate and acceleration of the disc angle: in every record, with an encoder or without."""
-
-SPIN_WINDOW = 0.6
-"""Half the segment, s, over which the encoder's angle is smoothed for its rate."""
-
-EVEN = 1e-7
-"""Steps by which instants that count as even may be off: the last digits of a time of a day."""
+SPIN_WINDOW = 0.6  # half the segment, s, over which the encoder's angle is smoothed for its rate
+EVEN = 1e-7  # steps by which instants that count as even may be off: the last digits of a time of a day
 
 
 @dataclass(frozen=True)
@@ -302,8 +295,7 @@ def disc_angle(time: Array, spin_frequency: float, start: float = 0.0) -> Array:
     return phi + folded.disc_angle(np.array([start]), spin_frequency) if start else phi
 
 
-STANDING = 1e-3
-"""Range of a recorded disc angle, rad, below which the disc stands still."""
+STANDING = 1e-3  # range of a recorded disc angle, rad, below which the disc stands still
 
 
 def measure_phase(g: complex) -> float:
@@ -365,8 +357,8 @@ def take_quantities(r: Record, rows: slice) -> Callable[[str], Array]:
     return lambda name: r.part(rows).quantity(name)
 
 
+# how far the rate at which channels were made may be from a multiple of the record's, relatively: clocks are that good
 UNEVEN = 1e-3
-"""How far the rate at which channels were made may be from a multiple of the record's, relatively: clocks are that good."""
 
 
 @cache

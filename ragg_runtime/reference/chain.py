@@ -31,18 +31,13 @@ Triple = tuple[Array, Array, Array]
 Triad = tuple[Taylor, Taylor, Taylor]
 Auxiliary = Callable[[Array], Array]
 
-_ARM_ITERATIONS = 3
-"""The arm's stretch changes the force that stretches it by a part in a million."""
-
-_STEP = 0.01
-"""Between the instants at which an arm's length is looked at to learn how fast it changes, s."""
-
-_WARMING = 1e-4
-"""Half the segment over which the rate of a temperature is taken, s."""
+_ARM_ITERATIONS = 3  # the arm's stretch changes the force that stretches it by a part in a million
+_STEP = 0.01  # between the instants at which an arm's length is looked at to learn how fast it changes, s
+_WARMING = 1e-4  # half the segment over which the rate of a temperature is taken, s
 
 _FIRST = (1 / 12, -2 / 3, 0.0, 2 / 3, -1 / 12)
+# derivatives by central differences over five instants, good to the fourth power of the step
 _SECOND = (-1 / 12, 4 / 3, -5 / 2, 4 / 3, -1 / 12)
-"""Derivatives by central differences over five instants, good to the fourth power of the step."""
 
 
 @dataclass(frozen=True)

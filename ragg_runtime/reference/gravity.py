@@ -17,14 +17,9 @@ from ragg_runtime.base.errors import UserError
 
 Array = NDArray[np.float64]
 
-G = 6.6743e-11
-"""Newton's constant, m^3 kg^-1 s^-2 (CODATA 2018)."""
-
-COMPONENTS = ("xx", "xy", "xz", "yy", "yz", "zz")
-"""Order of the six components of a gradient tensor."""
-
-Track = Callable[[Array], Array]
-"""Position as a function of time: (N,) s -> (3, N) m."""
+G = 6.6743e-11  # Newton's constant, m^3 kg^-1 s^-2 (CODATA 2018)
+COMPONENTS = ("xx", "xy", "xz", "yy", "yz", "zz")  # order of the six components of a gradient tensor
+Track = Callable[[Array], Array]  # position as a function of time: (N,) s -> (3, N) m
 
 
 class Gravity(Protocol):

@@ -80,14 +80,10 @@ _MILLI_G = 9.8e-3
 _DEG_PER_HOUR = np.pi / 180 / 3600
 _EO = 1e-9
 
+# mean and rms of a_x, a_y, a_z on a stabilised platform, mg
 LINEAR = ((15.0, 10.0), (15.0, 10.0), (100.0, 30.0))
-"""Mean and rms of a_x, a_y, a_z on a stabilised platform, mg."""
-
-ANGULAR = (100.0, 150.0)
-"""Mean and rms of each angular rate, deg/h."""
-
-BACKGROUND = (300.0, 120.0, 50.0, 200.0, -80.0, -500.0)
-"""Constant gradient xx, xy, xz, yy, yz, zz, Eo."""
+ANGULAR = (100.0, 150.0)  # mean and rms of each angular rate, deg/h
+BACKGROUND = (300.0, 120.0, 50.0, 200.0, -80.0, -500.0)  # constant gradient xx, xy, xz, yy, yz, zz, Eo
 
 # One stream for each thing that is drawn, so that a change in one leaves the others.
 _INSTRUMENT, _MOTION, _AUXILIARY, _GEOLOGY = range(10, 14)
@@ -107,8 +103,7 @@ SHAPES: Mapping[str, Callable[[Array], Array]] = {
 }
 """Power spectral density over frequency (Hz) below the cutoff, up to a factor."""
 
-CUTOFF = 1.2
-"""Half-power frequency of the platform's low-pass (48 dB an octave), Hz."""
+CUTOFF = 1.2  # half-power frequency of the platform's low-pass (48 dB an octave), Hz
 
 _NODES_PER_CYCLE = 13
 _PAD = 10.0

@@ -27,8 +27,7 @@ from ragg_runtime.reference.motion import MotionSignals, Sinusoids, Turning
 Array = NDArray[np.float64]
 
 
-_EARTH_FIELD = (1.5e-5, 1.0e-5, -4.5e-5)
-"""Magnetic flux density in the measurement frame, T."""
+_EARTH_FIELD = (1.5e-5, 1.0e-5, -4.5e-5)  # magnetic flux density in the measurement frame, T
 
 
 def draw_usual(rng: np.random.Generator) -> Mapping[str, Auxiliary]:

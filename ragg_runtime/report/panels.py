@@ -40,35 +40,19 @@ from ragg_runtime.wording.sections import Axes, Bar, Bars, Curve, Curves, Matrix
 
 Array = NDArray[np.float64]
 Residuals = Sequence[Array]
-Lines = Sequence[tuple[str, Residuals]]
-"""(``residual``, ``before`` or ``after``, residual of every flight)."""
-
-FLIGHTS = 4
-"""Flights that are drawn one by one, the worst of all that were given."""
-
-MOST_POINTS = 4000
-"""Points of a line above which its envelope is drawn instead."""
-
-STEPS = 14
-"""Latest steps of a history that are drawn."""
+Lines = Sequence[tuple[str, Residuals]]  # (residual, before or after, residual of every flight)
+FLIGHTS = 4  # flights that are drawn one by one, the worst of all that were given
+MOST_POINTS = 4000  # points of a line above which its envelope is drawn instead
+STEPS = 14  # latest steps of a history that are drawn
 
 SECONDS = "time since the first sample, s"
 
 
-POINTS = 600
-"""Columns of a drawn time series: about one for every second pixel of a laptop's screen."""
-
-LEAST = 8
-"""Samples of which an rms is drawn."""
-
-SEGMENT = 128.0
-"""Length of the segments of a drawn spectrum, s: a resolution of a fraction of the spin rate."""
-
-BAND = CUTOFF
-"""Hz up to which the demodulated channels hold the gradient."""
-
-DRAWN = CUTOFF + WIDTH / 2
-"""Hz up to which they are drawn: beyond it the low-pass leaves nothing."""
+POINTS = 600  # columns of a drawn time series: about one for every second pixel of a laptop's screen
+LEAST = 8  # samples of which an rms is drawn
+SEGMENT = 128.0  # length of the segments of a drawn spectrum, s: a resolution of a fraction of the spin rate
+BAND = CUTOFF  # Hz up to which the demodulated channels hold the gradient
+DRAWN = CUTOFF + WIDTH / 2  # Hz up to which they are drawn: beyond it the low-pass leaves nothing
 
 
 @dataclass(frozen=True)
@@ -366,14 +350,10 @@ def describe_record(f: Fitted) -> list[tuple[str, str]]:
     ]
 
 
-NORMAL_99 = 2.5758
-"""Half width of the interval that holds 99 % of a normal distribution, standard deviations."""
-
+NORMAL_99 = 2.5758  # half width of the interval that holds 99 % of a normal distribution, standard deviations
+# longest lag: turns of the disc; seconds, where it stands; and samples at most
 TURNS, LONGEST, MOST_LAGS = 4.0, 30.0, 1200
-"""Longest lag: turns of the disc; seconds, where it stands; and samples at most."""
-
-BINS = 40
-"""Bins of a channel, each of as many samples."""
+BINS = 40  # bins of a channel, each of as many samples
 
 MOTION = (*SPECIFIC_FORCE, *ANGULAR_RATE)
 
@@ -486,14 +466,9 @@ def find_worst_channel(f: Fitted, n: int, residual: Array) -> str:
     return max(sorted(r.channels), key=departs)
 
 
-SHARE = 0.03
-"""Squared share of what is seen below which a direction is taken not to be seen."""
-
-LISTED = 16
-"""Pairs that are listed, the most correlated first."""
-
-MOST_LABELS = 24
-"""Directions of a matrix of correlations: beyond these nobody reads it."""
+SHARE = 0.03  # squared share of what is seen below which a direction is taken not to be seen
+LISTED = 16  # pairs that are listed, the most correlated first
+MOST_LABELS = 24  # directions of a matrix of correlations: beyond these nobody reads it
 
 
 def find_directions(f: Fitted) -> tuple[list[str], Array]:

@@ -37,17 +37,13 @@ distinguishable in black and white."""
 
 NAMES = {colour: name for name, colour in COLOURS.items()}
 
+# width of a figure, inches: its text is 12 pixels on a page of 500, and 14 where the page is wide (style.css ends its growth there)
 WIDTH = 4.8
-"""Width of a figure, inches: its text is 12 pixels on a page of 500, and 14 where the page is wide (style.css ends its growth there)."""
-
-MARKS_APART = 1.8
-"""Ratio of frequencies whose names do not touch."""
-
+MARKS_APART = 1.8  # ratio of frequencies whose names do not touch
+# matplotlib's settings are the whole process's: the studio is asked for two figures at once
 ONE_AT_A_TIME = threading.Lock()
-"""Matplotlib's settings are the whole process's: the studio is asked for two figures at once."""
-
+# behind a value that may lie on a line
 HALO = {"facecolor": COLOURS["paper"], "edgecolor": "none", "pad": 0.6}
-"""Behind a value that may lie on a line."""
 
 
 def draw_plot(plot: Plot) -> str:

@@ -18,17 +18,10 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.io.files import ENDINGS, find_ending
 from ragg_runtime.workspace import Loaded
 
-LISTED = 500
-"""Most entries of a folder that are shown."""
-
-LONGEST_NAME = 120
-"""Longest name of an uploaded file, characters."""
-
-MOST = 4 << 30
-"""Largest file that is taken, bytes: a day at 100 Hz with all channels is 2 GB."""
-
-FOLDER = "flights"
-"""Where uploaded flights are kept, in the model directory."""
+LISTED = 500  # most entries of a folder that are shown
+LONGEST_NAME = 120  # longest name of an uploaded file, characters
+MOST = 4 << 30  # largest file that is taken, bytes: a day at 100 Hz with all channels is 2 GB
+FOLDER = "flights"  # where uploaded flights are kept, in the model directory
 
 
 @dataclass(frozen=True)

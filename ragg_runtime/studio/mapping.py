@@ -23,14 +23,9 @@ from ragg_runtime.wording import numbers
 
 Json = dict[str, Any]
 
-NEEDED = (*SPECIFIC_FORCE, *ANGULAR_RATE)
-"""Channels that every flight has."""
-
-POINTS = 160
-"""Samples of a column that are drawn."""
-
-UNWRITTEN = Path("mapping.toml")
-"""Path of a mapping that is not saved yet, for messages."""
+NEEDED = (*SPECIFIC_FORCE, *ANGULAR_RATE)  # channels that every flight has
+POINTS = 160  # samples of a column that are drawn
+UNWRITTEN = Path("mapping.toml")  # path of a mapping that is not saved yet, for messages
 
 
 def draft(m: Loaded, path: Path) -> Json:

@@ -26,11 +26,8 @@ from ragg_runtime.studio.files import check_flight, receive_flight
 from ragg_runtime.studio.session import Busy, Session, SheetEdit, describe_failure
 from ragg_runtime.wording import numbers
 
-BEAT = 0.15
-"""How often a page hears of changes, s."""
-
-WATCH = 1.5
-"""How often the model directory is looked at for changes by others, s."""
+BEAT = 0.15  # how often a page hears of changes, s
+WATCH = 1.5  # how often the model directory is looked at for changes by others, s
 
 UPLOAD = "/api/upload"
 

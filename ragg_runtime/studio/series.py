@@ -33,26 +33,13 @@ Array = NDArray[np.float64]
 
 UNITS = ("V", "Eo", *DEMODULATED)
 
-DENSE = 260
-"""Frequencies of a spectrum."""
-
-MULTIPLES = 6.0
-"""A spectrogram reaches to this multiple of the spin unless more is asked for."""
-
-COLUMNS = 26
-"""Products of channels that the map of terms shows."""
-
-MOST_COLUMNS, ROWS = 240, 160
-"""Most instants and frequencies of a spectrogram."""
-
-RESOLUTION = 0.25
-"""Width of a bin over the spin frequency, at most: neighbouring multiples must stay apart."""
-
-LEAST = 0.9
-"""Share of the samples under a window that must be valid."""
-
-MODELS = 12
-"""Models that are drawn from the posterior."""
+DENSE = 260  # frequencies of a spectrum
+MULTIPLES = 6.0  # a spectrogram reaches to this multiple of the spin unless more is asked for
+COLUMNS = 26  # products of channels that the map of terms shows
+MOST_COLUMNS, ROWS = 240, 160  # most instants and frequencies of a spectrogram
+RESOLUTION = 0.25  # width of a bin over the spin frequency, at most: neighbouring multiples must stay apart
+LEAST = 0.9  # share of the samples under a window that must be valid
+MODELS = 12  # models that are drawn from the posterior
 
 
 @dataclass(frozen=True)
@@ -69,8 +56,8 @@ class Asked:
     points: int
 
 
+# header of a series: mark, number of points, first abscissa, step, kind (0: values, 1: least and greatest values)
 HEAD = struct.Struct("<4sIddI")
-"""Header of a series: mark, number of points, first abscissa, step, kind (0: values, 1: least and greatest values)."""
 
 
 @dataclass(frozen=True)

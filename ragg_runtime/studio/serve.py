@@ -27,17 +27,10 @@ from ragg_runtime.studio.session import Session
 
 LOOPBACK = "127.0.0.1"
 
-SWITCH = 0.0005
-"""How long a thread that computes may keep one waiting that answers the page, s."""
-
-CLOSING = 1
-"""Longest wait for open pages once it is interrupted, s."""
-
-WHOLE = 10.0
-"""How long a request may take to arrive, s; of a file, how long nothing may arrive."""
-
-BODY = 1 << 20
-"""Longest body of a request, bytes; files have a limit of their own."""
+SWITCH = 0.0005  # how long a thread that computes may keep one waiting that answers the page, s
+CLOSING = 1  # longest wait for open pages once it is interrupted, s
+WHOLE = 10.0  # how long a request may take to arrive, s; of a file, how long nothing may arrive
+BODY = 1 << 20  # longest body of a request, bytes; files have a limit of their own
 
 ONCE = "open the address that `ragg studio` printed; it works once: start it again for a new one"
 ELSEWHERE = "the request comes from another site"
@@ -53,8 +46,8 @@ HEADERS = {
     "cache-control": "no-store",
 }
 
+# for an SVG, whose styles are attributes; it can neither run code nor load anything
 PICTURE = {"content-security-policy": "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"}
-"""For an SVG, whose styles are attributes; it can neither run code nor load anything."""
 
 
 def serve(

@@ -28,11 +28,9 @@ from ragg_runtime.studio.files import Places
 from ragg_runtime.studio.mapping import is_foreign
 
 T = TypeVar("T")
+# announces a part of some work: its name, and the samples that it goes through
 Part = Callable[[str, float], None]
-"""Announces a part of some work: its name, and the samples that it goes through."""
-
-SERIES = 24
-"""Series of a state that are remembered: of a day at 100 Hz each takes 40 MB."""
+SERIES = 24  # series of a state that are remembered: of a day at 100 Hz each takes 40 MB
 
 NOTHING: Mapping[str, None] = MappingProxyType(
     dict.fromkeys(("compared", "diagnosed", "held", "previous", "trial", "compensated"))

@@ -34,8 +34,8 @@ from ragg_runtime.wording.sections import Section, Table
 
 Json = dict[str, Any]
 
+# marks of either kind on a timeline, the longest and the first: it has no more pixels for them
 MOST_MARKS = 300
-"""Marks of either kind on a timeline, the longest and the first: it has no more pixels for them."""
 
 
 def describe_state(s: State) -> Json:

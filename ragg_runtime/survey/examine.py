@@ -33,17 +33,10 @@ from ragg_runtime.io.record import content
 from ragg_runtime.model import derive
 from ragg_runtime.screening import screen
 
-Record = dict[str, Any]
-"""What a survey keeps of a flight: JSON."""
-
-CONTENT = "content"
-"""Key, in a record, of the digest of what was recorded; not part of the result."""
-
-RANKED = 5
-"""Effects of the ranking that are kept."""
-
-BETWEEN = "::"
-"""Between the file and the line of a flight."""
+Record = dict[str, Any]  # what a survey keeps of a flight: JSON
+CONTENT = "content"  # key, in a record, of the digest of what was recorded; not part of the result
+RANKED = 5  # effects of the ranking that are kept
+BETWEEN = "::"  # between the file and the line of a flight
 
 
 def fingerprint() -> tuple[tuple[str, str], ...]:

@@ -23,11 +23,9 @@ from ragg_runtime.wording import describe_other
 from ragg_runtime.wording.numbers import clean
 from ragg_runtime.wording.sections import Section, render_notebook
 
+# logarithm of a p-value that no flaw of an estimated noise brings about: one flight is enough
 CERTAIN = -30.0
-"""Logarithm of a p-value that no flaw of an estimated noise brings about: one flight is enough."""
-
-BEYOND = -1e6
-"""The same of an effect that is seen in the values themselves (a saturated output): certain."""
+BEYOND = -1e6  # the same of an effect that is seen in the values themselves (a saturated output): certain
 
 VERDICTS = {
     "adequate": "adequate",
@@ -37,8 +35,8 @@ VERDICTS = {
     "error": "in error",
 }
 
+# the errors of a record; None where it does not say
 ERRORS = ("nominal", "calibrated", "holdout", "after", "after_holdout")
-"""The errors of a record; None where it does not say."""
 
 
 @dataclass(frozen=True, repr=False)

@@ -27,17 +27,12 @@ from ragg_runtime.survey.examine import BETWEEN, CONTENT, Job, Record, examine, 
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.workspace import Loaded, mapping_of
 
+# called with the number of flights done, of all, and the record just made (None at the beginning)
 Progress = Callable[[int, int, Record | None], None]
-"""Called with the number of flights done, of all, and the record just made (``None`` at the beginning)."""
-
-ATTEMPTS = 3
-"""How often a flight is tried whose worker dies or runs out of memory."""
-
-PATIENCE = 5.0
-"""How long the scheduler of a cluster, and then its first worker, is waited for, s."""
-
+ATTEMPTS = 3  # how often a flight is tried whose worker dies or runs out of memory
+PATIENCE = 5.0  # how long the scheduler of a cluster, and then its first worker, is waited for, s
+# flights that the scheduler knows for each thread of its workers: its memory does not grow with their number
 AHEAD = 4
-"""Flights that the scheduler knows for each thread of its workers: its memory does not grow with their number."""
 
 
 def survey(
@@ -138,8 +133,8 @@ def drop_repeated(records: Sequence[Record]) -> Iterator[Record]:
 # --- workers -------------------------------------------------------------------------------------------
 
 
+# opens workers for so many flights: an executor, and how many flights it is given at a time
 OpenPool = Callable[[int], contextlib.AbstractContextManager[tuple[Executor, int]]]
-"""Opens workers for so many flights: an executor, and how many flights it is given at a time."""
 
 
 def examine_all(

@@ -25,14 +25,11 @@ ERROR_HEADS = {
 }
 """Key of an error object -> the head of its column."""
 
-RANKED = 6
-"""Effects of a ranking that a terminal shows unless it is asked for all."""
-
+RANKED = 6  # effects of a ranking that a terminal shows unless it is asked for all
+# the combinations of four accelerometers that the paper's output depends on (Eq. 18-19).
 PATTERNS = {"Sigma": "A1 + A2 + A3 + A4", "D1234": "A1 + A2 − A3 − A4", "D12": "A1 − A2", "D34": "A3 − A4"}
-"""The combinations of four accelerometers that the paper's output depends on (Eq. 18-19)."""
-
+# standard deviations below which a value is shown on request alone; of a single accelerometer, where combinations are known
 CLEAR, CLEAR_ALONE = 1.0, 3.0
-"""Standard deviations below which a value is shown on request alone; of a single accelerometer, where combinations are known."""
 
 
 def format_error(e: Json | None) -> str:

@@ -30,8 +30,7 @@ from ragg_runtime.wording.describe import (
 from ragg_runtime.wording.numbers import number
 from ragg_runtime.wording.sections import Section, Table, tabulate
 
-LISTED = 60
-"""Flights of a survey that are listed one by one."""
+LISTED = 60  # flights of a survey that are listed one by one
 
 
 FROM = {

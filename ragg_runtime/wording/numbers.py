@@ -100,8 +100,7 @@ def _digits(value: float, std: float) -> tuple[float, float, int, int]:
     return v, s, min(max(0, 1 - math.floor(math.log10(s))), 15), scale
 
 
-LEAST_P = -16.0
-"""log10 of the least p-value that is written: below it the figure says no more."""
+LEAST_P = -16.0  # log10 of the least p-value that is written: below it the figure says no more
 
 
 def probability(log10_p: float | None) -> str:

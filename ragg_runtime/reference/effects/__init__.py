@@ -13,14 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.base.errors import UserError, check_keys
 
+# parameters of one effect: (4,) per accelerometer, or () shared, SI
 Values = Mapping[str, NDArray[np.float64]]
-"""Parameters of one effect: (4,) per accelerometer, or () shared, SI."""
-
-Injected = Mapping[str, Values]
-"""Effects by id."""
-
+Injected = Mapping[str, Values]  # effects by id
+# what a user passes: {id: {parameter: value or four values, SI}}; parameters left out are neutral
 EffectValues = Mapping[str, Mapping[str, ArrayLike]]
-"""What a user passes: {id: {parameter: value or four values, SI}}; parameters left out are neutral."""
 
 
 @dataclass(frozen=True)

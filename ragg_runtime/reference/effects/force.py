@@ -78,8 +78,7 @@ def _turn_attraction(tensor: Array, r: Array, attitude: Sequence[Array]) -> Arra
     return pulled
 
 
-_PLANES = ((0, 1), (2, 0), (1, 2))
-"""Axes from which to which a turn about z, y and x goes."""
+_PLANES = ((0, 1), (2, 0), (1, 2))  # axes from which to which a turn about z, y and x goes
 
 
 def _complete(values: Values, name: str = "G_{}") -> Array:

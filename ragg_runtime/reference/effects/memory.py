@@ -16,11 +16,9 @@ from ragg_runtime.reference.motion import Signal
 
 Array = NDArray[np.float64]
 
+# steps per second of the integration, by the trapezoidal rule: motion of 1 Hz comes out to a hundred-thousandth of its change
 FINE = 1024.0
-"""Steps per second of the integration, by the trapezoidal rule: motion of 1 Hz comes out to a hundred-thousandth of its change."""
-
-OVER = 8
-"""Instants between two samples at which voltages are known before they are interpolated."""
+OVER = 8  # instants between two samples at which voltages are known before they are interpolated
 
 
 def oscillator(values: Values) -> tuple[float, float]:
@@ -60,11 +58,9 @@ def find_resonance_loss(values: Values, voltages: Callable[[Array], Array], time
 
 SLIPPING = ("bias-hysteresis", "mount-hysteresis")
 CREEPING = ("bias-creep", "mount-creep")
+# effects that depend on the past of a force, current or temperature
 MEMORIES = (*SLIPPING, *CREEPING, "inner-temperature", "thermal-hysteresis")
-"""Effects that depend on the past of a force, current or temperature."""
-
-CYCLE = "thermal friction"
-"""Name of the series, -1 to 1, that slips by the temperature."""
+CYCLE = "thermal friction"  # name of the series, -1 to 1, that slips by the temperature
 
 
 def former(effect: str) -> str:

@@ -151,5 +151,4 @@ def _reading(G: Array, c_2: float, c_3: float) -> Array:
     return np.asarray(r)
 
 
-_NEWTON = 6
-"""Steps that bring a curve of a per cent to the last digit."""
+_NEWTON = 6  # steps that bring a curve of a per cent to the last digit

@@ -16,11 +16,8 @@ Array = NDArray[np.float64]
 Triple = tuple[Array, Array, Array]
 Triad = tuple[Taylor, Taylor, Taylor]
 
-REFERENCE_TEMPERATURE = 293.15
-"""Temperature (K) at which bias and scale factor have their test-sheet values."""
-
-REFERENCE_PRESSURE = 101325.0
-"""Pressure (Pa) at which the bias has its test-sheet value."""
+REFERENCE_TEMPERATURE = 293.15  # temperature (K) at which bias and scale factor have their test-sheet values
+REFERENCE_PRESSURE = 101325.0  # pressure (Pa) at which the bias has its test-sheet value
 
 RATE_OF_TEMPERATURE = "d_temperature"
 
@@ -181,8 +178,7 @@ def loop_quadrature(width: float) -> tuple[tuple[float, float], ...]:
     return tuple((side * d, w / 2) for d, w in lag_quadrature(width) for side in (1.0, -1.0))
 
 
-LONGEST_LAG = 0.03
-"""Time constant (s) up to which the quadrature is good to 1e-10 for forces below 2.5 Hz."""
+LONGEST_LAG = 0.03  # time constant (s) up to which the quadrature is good to 1e-10 for forces below 2.5 Hz
 
 _NODES, _WEIGHTS = np.polynomial.laguerre.laggauss(10)
 
