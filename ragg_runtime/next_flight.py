@@ -87,10 +87,10 @@ def next_flight(
     purpose: Literal["effects", "calibration"] = "effects",
     criterion: Literal["A", "D"] = "A",
 ) -> NextFlight:
-    """The motion that separates the alternatives left, or that calibrates best for motion such as that of the flights.
+    """The motion that separates the alternatives left, or the best one to calibrate for motion such as the flights'.
 
-    ``rate``, Hz, is that of the flights unless given; ``band``, Hz, all that it can hold. ``criterion`` of a calibration: least mean
-    variance of the channels (A), or least volume of what is uncertain there (D).
+    ``rate``, Hz: default that of the flights; ``band``, Hz: default all that the rate holds. ``criterion`` of a calibration: least
+    mean variance of the channels (A), or least volume of their uncertainty (D).
     """
     rate = flights[0].rate if rate is None else rate
     tones = _list_possible(m, limits, rate, band)
@@ -150,8 +150,7 @@ def _list_possible(
 # --- the motion that calibrates: what the parameters add to the variance of the compensated channels (A-optimal), or the volume of what
 # they leave uncertain there (D-optimal; A. Atkinson, A. Donev, R. Tobias, Optimum Experimental Designs, 2007, ch. 10)
 
-# share of the channels' variance by parameters below which a direction does not count for D: its volume would be of nothing
-MATTER = 1e-3
+MATTER = 1e-3  # least share of the channels' variance for a direction to count in D
 
 
 @dataclass(frozen=True)
@@ -195,7 +194,7 @@ class ChannelVariance:
         return -sum(x**2 for x in self.rms(R))
 
     def weigh_volume(self, R: Array) -> float:
-        """D-criterion: the less volume of the directions that make up the channels' variance by the flights so far, the more."""
+        """D-criterion: minus the log volume of uncertainty, squared, in the directions of the channels' variance so far."""
         stacked = np.vstack([*self.r_factors])
         U, s, _ = np.linalg.svd(stacked @ invert_root(self.known.root), full_matrices=False)
         matter = U[:, s**2 > MATTER * np.sum(s**2)].T @ stacked

@@ -134,7 +134,7 @@ def _read_example() -> str:
 
 
 def as_of(m: Loaded, text: str, step: HistoryStep | None = None) -> Loaded:
-    """The model with another text of model.toml, after this ``step``, in memory alone: the directory stays as it is."""
+    """The model with another text of model.toml, after this ``step``, in memory; the directory is not changed."""
     instrument = parse_instrument(text, m.directory.path / "model.toml")
     model = derive.load_model(instrument)
     make_vector(model, instrument)

@@ -148,9 +148,7 @@ def lock(path: Path, patience: float) -> filelock.BaseFileLock:
 
 
 def find_private_folder(name: str, folder: Path | None = None) -> Path:
-    """The ``folder``, by default one of the user's cache, if it can be written, by its owner alone (it holds code); else one for this
-    process.
-    """
+    """``folder``, by default one of the user's cache, if its owner alone can write to it (it holds code); else one for this process."""
     place = folder if folder is not None else platformdirs.user_cache_path("ragg") / name
     try:
         place.mkdir(mode=0o700, parents=True, exist_ok=True)

@@ -51,7 +51,7 @@ def listening(tell: Callable[[float], None]) -> Iterator[None]:
 
 @contextlib.contextmanager
 def show_progress(command: str, samples: int) -> Iterator[None]:
-    """Say on stderr how far ``command`` is with flights of so many ``samples``: one line that changes, or a line now and then."""
+    """Report on stderr the progress of ``command`` with flights of so many ``samples``: in one line that changes, or line by line."""
     total, terminal = PASSES[command] * max(samples, 1), sys.stderr.isatty()
     done, start = 0.0, time.monotonic()
     due = first = start + (QUIET if terminal else INTERVAL)

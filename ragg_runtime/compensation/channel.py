@@ -1,4 +1,4 @@
-"""The gravity gradient by one output of a flight: the series, how sure it is, and what each sample is worth."""
+"""The gravity gradient by one output of a flight: the series, its uncertainty, and a quality for each sample."""
 
 from __future__ import annotations
 

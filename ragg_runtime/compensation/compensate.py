@@ -100,9 +100,9 @@ class Compensation:
         return {**self.result, "quality": meaning}
 
     def write(self, path: Path | str) -> None:
-        """The series of all flights, one after the other, into a file of the format that its ending names.
+        """Write the series of all flights, one after the other; the ending of the path names the format.
 
-        Each begins and ends where there are values, which have the digits that their uncertainty warrants, and one more.
+        Each begins and ends with a value; values have the digits that their uncertainty warrants, and one more.
         """
         parts = [_trim_ends(s) for s in self.series]
         joined = {n: np.concatenate([s[n] for s in parts]) for n in parts[0]}
@@ -315,9 +315,9 @@ def measure_density(g: Complex, rate: float) -> dict[str, float | None]:
 
 
 def list_groups(model: Model, instrument: Instrument, p: Array) -> Iterator[tuple[str, str | None, Array]]:
-    """Parameters that do something together: name, effect, and the vector (size,) without them.
+    """Groups of parameters with a common contribution: name, effect, and the vector (size,) without them.
 
-    They are at zero, an effect where it is absent, scale factors at their mean, which carries the gradient itself.
+    There they are zero, or neutral if of an effect; scale factors are at their mean, which carries the gradient itself.
     """
     places = model.chain.places
     for q in (q for q in PARAMETERS if q.name in places):

@@ -36,14 +36,15 @@ WORTH = 4.5  # log evidence that a walk must gain: what distinguishes two explan
 
 HOUR = 3600.0
 
-# steps a turn by which parameters follow a line: their frequency is far above that of the gradient, two a turn
-STAIRS = 8
-# variance of a random walk about the line between its means over successive blocks, in that of a step over a block
+STAIRS = (
+    8  # steps a turn in which parameters follow a line: far more than the two cycles a turn of the gradient
+)
+# variance of a random walk about the line between its means over successive blocks, over that of its change in a block
 WITHIN = 0.128
 
 NEAR, TURNS = 0.1, 4
-"""Of the sheet's error: how far the mean of the smoothed parameters may be from those about which they are linear; and most
-linearisations. A point 4.6 from there left 6 Eo in compensated channels instead of 2.
+"""Largest distance of the smoothed parameters' mean from the point of linearisation, over the sheet's error; most linearisations.
+At a distance of 4.6 compensated channels kept 6 Eo instead of 2.
 """
 
 
@@ -261,7 +262,7 @@ def _filter(
 
 
 def walk_on(R: Array, step: Array) -> Array:
-    """The R factor after a step of the walk, of these standard deviations (n,): the parameters before it are eliminated."""
+    """The R factor after a step of the walk with standard deviations (n,); the parameters before it are eliminated."""
     moving = np.flatnonzero(step)
     m, n = len(moving), len(step)
     if not m:

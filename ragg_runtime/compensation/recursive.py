@@ -129,7 +129,7 @@ class Online:
             rows.clear()
 
     def _fade(self, t: float) -> None:
-        """Forget of what flights said as much as fades within t, s; what the sheet says comes back."""
+        """Forget the share of the flights' information that fades within t, s; the sheet's takes its place."""
         share = float(np.exp(-t / self.tuning.forget))
         if share < 1.0:
             self.R = np.sqrt(share) * self.R

@@ -27,7 +27,7 @@ KINDS: Mapping[str, tuple[str, ...]] = {
 }
 """Each kind of low-pass, and the keys that it needs (``cutoff`` of fir may be left out)."""
 
-# of a Butterworth low-pass: beyond it, at a hundredth of the sampling rate, its sections lose what precision there is
+# of a Butterworth low-pass: beyond it, at a hundredth of the sampling rate, its sections lose their precision
 MOST_ORDER = 12
 
 _UNITS: Mapping[str, str] = {"cutoff": "Hz", "length": "s", "delay": "s", "rate": "Hz"}

@@ -35,8 +35,8 @@ from ragg_runtime.instrument.layout import Layout
 VARIABLE = "RAGG_NATIVE"
 
 OPTIONS = ("-std=c17", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared")
-"""No -ffast-math: it gains nothing and costs exactness. Contraction is off because the code says itself where products are fused: a
-sample has the same bits wherever it stands, and with whatever effort it was compiled."""
+"""No -ffast-math: it gains nothing and costs exactness. Contraction is off, as the code itself fuses products: a sample has the
+same bits at any place in an array and at any level of optimisation."""
 
 FOR_PROCESSOR: tuple[tuple[str, ...], ...] = (
     ("-march=native", "-mprefer-vector-width=512"),
@@ -157,10 +157,10 @@ BLOCK = 4096  # samples that NumPy evaluates at a time, in cache
 class Chain:
     """A generated module for the accelerometers of a layout.
 
-    Times t in s, (N,); parameters p in SI, in the order of PARAMETERS. ``angle`` is the disc angle, rad, (N,), of
-    several discs that of the one whose accelerometers are asked for; by default 2 pi spin_frequency t, reduced exactly. ``sources``:
-    its C, file name -> text, compiled when it is first evaluated, ``quick``: for one fit. ``folded``: the module that serves for
-    outputs in NumPy. ``name`` is the generated module's.
+    Times t in s, (N,); parameters p in SI, in the order of PARAMETERS. ``angle``: rad, (N,), of the disc of the accelerometers
+    evaluated; by default 2 pi spin_frequency t, reduced exactly. ``sources``: its C, file name -> text, compiled at the first
+    evaluation, ``quick``: with less optimisation, for one fit. ``folded``: the module for outputs in NumPy. ``name``: of the
+    generated module.
     """
 
     module: ChainModule

@@ -59,8 +59,8 @@ class Memory:
 
     @property
     def settles(self) -> float:
-        """After how long, s, it does not matter what was before a record; the state of what relaxes there has parameters, that of a
-        temperature's cycle is a bias until it slips.
+        """s after which the time before a record no longer matters: 0 for relaxation, whose initial state has parameters, and for
+        a temperature's cycle, whose initial state is a bias.
         """
         if self.kind in (*RELAXING, "cycle"):
             return 0.0
@@ -153,8 +153,8 @@ def _slip(force: Mapping[str, Array], m: Memory, names: Container[str]) -> dict[
 def apply_stop(x: Array, w: float) -> Array:
     """(N,): the stop operator of x, over w: it follows x between -1 and 1, at first from 0.
 
-    What has play follows by y = clip(y before, x - w, x + w). Two such steps are one with limits of their own, so that all are
-    put together in log2 N rounds.
+    It is x - y over w, with play y = clip(y before, x - w, x + w). Two such steps in succession are one with other limits, so
+    that all are combined in log2 N rounds.
     """
     low, high = x - w, x + w
     low[0] = high[0] = x[0]
@@ -183,7 +183,7 @@ def _filter_record(
 
 
 def _continue_smoothly(x: Array, before: int, after: int) -> Array:
-    """A series less its mean that goes on smoothly beyond both ends and fades: an edge would ring in all of it."""
+    """A series less its mean, continued smoothly beyond both ends and faded out, as an edge would ring in all of it."""
     level = np.mean(x)
     longer = np.pad(x - level, (before, after), mode="reflect", reflect_type="odd")
     longer[:before] *= 0.5 - 0.5 * np.cos(np.pi * (np.arange(before) + 0.5) / max(before, 1))
@@ -231,7 +231,7 @@ def move_record(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
         for quantity in q.late:
             offset, drift = moves.get(quantity, (0.0, 0.0))
             moves[quantity] = (offset, drift + p[k]) if q.growing else (offset + p[k], drift)
-    return (r.moved(moves) if moves else r), rest
+    return (r.shift(moves) if moves else r), rest
 
 
 def list_late(model: Model) -> Iterator[tuple[int, DerivedParameter]]:

@@ -221,7 +221,7 @@ class Record:
             reading=reading,
         )
 
-    def moved(self, moves: Mapping[str, tuple[float, float]]) -> Record:
+    def shift(self, moves: Mapping[str, tuple[float, float]]) -> Record:
         """The record with motion taken from later in it: quantity (``a`` ...) -> lateness, s, at time 0 and per second.
 
         An angular rate is shifted by the integral of the recorded angular acceleration, as in the chain's series: with its own, noisier

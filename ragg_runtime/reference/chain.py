@@ -241,7 +241,7 @@ class Chain:
     def _in_measurement_frame(
         self, j: int, fixed: Mount, instant: Instant
     ) -> tuple[Taylor, Triad, Taylor | None]:
-        """Arm and triad, and what lifts it out of the disc's plane, (3, N) each, while the disc angle runs on."""
+        """Arm, triad, and lift out of the disc's plane, (3, N) each, as the disc turns; no lift: ``None``."""
         disc = self.instrument.layout.places[j].disc
         lifts = bool(np.any(fixed.lift))
         vectors = np.stack([fixed.arm, *fixed.triad, *([fixed.lift] if lifts else [])])

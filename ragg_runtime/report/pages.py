@@ -94,7 +94,7 @@ def _draw(title: str, *plots: Plot | None, detail: bool = False) -> list[Section
 
 
 def write_comparison(c: Comparison, source: Source, frozen: Held | None = None) -> str:
-    """The report of ``compare``; ``frozen``: how a saved calibration holds, where it is that which is compared."""
+    """The report of ``compare``; ``frozen``: the test of the saved calibration, if that is compared."""
     f, names = c.fitted, [o.name for o in c.fitted.observations]
     if frozen is None:
         summary = describe.describe_comparison(c.as_json(), names)

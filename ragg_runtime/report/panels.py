@@ -125,12 +125,12 @@ def _bin_frequencies(f: Array, psd: Array, points: int) -> AmplitudeSpectrum:
 
 
 def compute_noise_density(w: PreparedFlight, k_ggi: float, spin: float, f: Array) -> Array:
-    """Density of the estimated noise of what was observed as G_out, Eo/sqrt(Hz)."""
+    """Density of the estimated noise as that of a G_out, Eo/sqrt(Hz)."""
     return np.asarray(np.sqrt(compute_noise_psd(w, spin, f)) / k_ggi)
 
 
 def compute_noise_rms(w: PreparedFlight, k_ggi: float) -> float:
-    """rms of the estimated noise of what was observed as G_out, Eo."""
+    """rms of the estimated noise as that of a G_out, Eo."""
     return float(np.sqrt(estimate_variance(w))) / abs(k_ggi)
 
 

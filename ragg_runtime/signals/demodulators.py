@@ -141,7 +141,7 @@ class Demodulator:
         return np.pad(self.taps, (half - self.ahead, half - self.before))
 
     def thin(self, factor: int) -> Demodulator:
-        """The same filter at a rate that is lower by ``factor``: of its output, and of what it is made of, every so many samples."""
+        """The same filter at a rate lower by ``factor``, of which input and output keep every so many-th sample."""
         taps = self.taps[self.ahead % factor :: factor]
         return replace(self, rate=self.rate / factor, taps=taps / np.sum(taps), ahead=self.ahead // factor)
 

@@ -116,8 +116,8 @@ def weights(window: int, at: int, band: float = BAND) -> Array:
 
 
 BRIDGE, FAR = 7, 16
-"""Of the spline over gaps, and gap, in usual distances, that is too wide for it. Of three samples of flights at 16 Hz it misses 3e-5 to
-1e-4 of the standard deviation, a cubic one 4e-3 to 1e-2; between rates held for two samples a cubic one left 600 Eo."""
+"""Degree of the spline over gaps, and gap, in usual distances, that is too wide for it. Over three samples of flights at 16 Hz it
+errs by 3e-5 to 1e-4 of the standard deviation, a cubic one by 4e-3 to 1e-2; between rates held for two samples a cubic one left 600 Eo."""
 
 
 def bridge_gaps(x: Array, present: Mask, *, smooth: bool = False, turning: bool = False) -> Array:

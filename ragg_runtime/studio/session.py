@@ -116,7 +116,7 @@ class State:
         return float(sum(map(len, self.flights)))
 
     def result_for(self, flight: int) -> tuple[Comparison, int]:
-        """The comparison that a flight is in, and its number there: of one kept for validation, by the calibration of the others."""
+        """The comparison with a flight, and its number there; flights kept for validation have that of the others' calibration."""
         first = len(self.flights) - self.kept
         if flight < first or self.held is None:
             return self.require("compared"), flight

@@ -165,7 +165,7 @@ def _show_history(m: Loaded) -> Json:
 
 
 def _show_steps(m: Loaded, c: Comparison) -> list[Json]:
-    """The error after every step of the present branch, ending with what the flights that are open show now."""
+    """The error after every step of the present branch, and last that of the open flights."""
     history = m.directory.history
     bars = panels.list_error_steps(
         [history[n].as_json() for n in Branches(history).path], c.calibrated.rms_Eo

@@ -1,4 +1,4 @@
-"""A survey: every flight diagnosed separately, on a pool of processes or on a Dask cluster, kept as it is done, and a summary."""
+"""A survey: every flight diagnosed separately by processes or a Dask cluster, each result kept at once, and a summary."""
 
 from __future__ import annotations
 
@@ -163,7 +163,7 @@ def examine_all(
 
 
 def _run(pool: Executor, job: Job, waiting: deque[str], limit: int) -> Generator[tuple[str, Future[Record]]]:
-    """(file, future) of flights as they are done, ``limit`` at a time: all that wait, or until a worker's death breaks the pool."""
+    """(file, future) of flights as they are done, ``limit`` at a time, until none waits or a worker's death breaks the pool."""
     running: dict[Future[Record], str] = {}
     broken = False
     while not broken and (waiting or running):

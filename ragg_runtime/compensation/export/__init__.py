@@ -339,7 +339,7 @@ FORMS: Mapping[str, Callable[[Contents], Files]] = {"c": make_c, "numpy": make_n
 """Form of an export -> its files."""
 
 MARK = ".ragg-export"
-"""The file by which a folder is known as that of an export; what an earlier one wrote is replaced file by file."""
+"""The file that marks a folder as an export, which a later export may replace file by file."""
 
 
 def write_export(c: Contents, folder: Path, form: str) -> list[Path]:

@@ -48,7 +48,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(5)
 
 
 def _of_body(body: Values, r: Array, auxiliaries: Mapping[str, Array]) -> Array:
-    """Attraction (3, N) m/s^2 at r more than at the centre, of a point or, by quadrature over points, of a cuboid that moves."""
+    """Attraction (3, N), m/s^2, at r less that at the centre, of a moving point mass, or of a cuboid by quadrature over points."""
     moved = np.stack([auxiliaries[f"mass_{k}"] for k in "xyz"])
     centre = moved + np.array([[float(body[k])] for k in "xyz"])
     edges = np.array([float(body.get(f"l_{k}", 0.0)) for k in "xyz"])

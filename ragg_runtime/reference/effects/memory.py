@@ -30,10 +30,9 @@ def oscillator(values: Values) -> tuple[float, float]:
 
 
 def recoil(values: Values, x: Signal, time: Array, delay: float = 0.0) -> tuple[Array, Array]:
-    """A quantity (N,) of the disc behind a mount as the sensor on the other side measures it, and its rate.
+    """A quantity x (N,) of the disc behind a mount as the sensor before it measures it, x_s, and its rate.
 
-    The disc's x is that of the sensor, x_s, and a share of what the resonance adds; solved for x_s it is
-    x_s - x = share b s^2 / (1 + d s + (1 - share) b s^2) x.
+    x is x_s and a share of what the resonance adds, so that x_s - x = share b s^2 / (1 + d s + (1 - share) b s^2) x.
     """
     (d, b), share = oscillator(values), float(values["share"])
     fine = time[0] + np.arange(int(np.ceil((time[-1] - time[0]) * FINE)) + 2) / FINE
@@ -69,7 +68,7 @@ def former(effect: str) -> str:
 
 
 def friction(effect: str, j: int, axis: int) -> str:
-    """Name of the series that slips, -1 to 1, or creeps by the force along an axis, 0 to 2, of accelerometer j."""
+    """Name of the series of friction, -1 to 1, or of creep under the force along an axis, 0 to 2, of accelerometer j."""
     return f"{effect} {j} {axis}"
 
 
@@ -139,7 +138,7 @@ def _slip(force: Array, w: float) -> Array:
 def _integrate(
     x: Array, numerator: Sequence[float], denominator: Sequence[float], rate: float = FINE
 ) -> Array:
-    """A series behind a rational response of s, in falling powers, from the state on in which x has always been as at first."""
+    """A series behind a rational response of s, in falling powers; before the record x had its first value."""
     if not np.any(numerator):
         return np.zeros_like(x)
     B, A = signal.bilinear(np.trim_zeros(numerator, "f"), np.trim_zeros(denominator, "f"), rate)

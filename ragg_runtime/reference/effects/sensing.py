@@ -20,8 +20,9 @@ Array = NDArray[np.float64]
 def record_motion(
     motion: MotionSignals, time: Array, effects: Injected, temperature: Array | float = REFERENCE_TEMPERATURE
 ) -> MotionState:
-    """What the motion sensor, at a temperature in K, reports at (N,) s: where it sits and when, how it is turned, and how its
-    accelerometers are off, in that order.
+    """Motion as the sensor, at a temperature in K, reports it at (N,) s.
+
+    In this order: its place and delay, its orientation and gyroscopes, its accelerometers, its range.
     """
     delay = float(effects["time-offset"]["delta_t"]) if "time-offset" in effects else 0.0
     if drift := effects.get("clock-drift"):
@@ -32,7 +33,7 @@ def record_motion(
 
 
 def _carry_to_sensor(motion: MotionSignals, time: Array, delay: float, effects: Injected) -> MotionState:
-    """The motion where the sensor sits, as late as its filters and its mount make it."""
+    """The motion at the sensor's place, delayed by its filters and its mount."""
     true = motion.at(time, delay)
     a, omega, omegadot = true.a, true.omega, true.omegadot
     if skewed := effects.get("imu-skew"):
