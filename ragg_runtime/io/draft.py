@@ -41,15 +41,13 @@ RANKS = ("certain", "likely", "guess")
 
 @dataclass(frozen=True)
 class Role:
-    """A channel that a column may be: how sure that is (see ``RANKS``), the ``scale`` between column and channel where the name tells it,
-    and ``why``. Of a component whose axis the other columns decide, ``direction`` is how the name calls it.
-    """
+    """A channel that a column may be."""
 
     name: str
-    sure: str = "likely"
-    scale: float = 1.0
+    sure: str = "likely"  # one of RANKS
+    scale: float = 1.0  # between column and channel, where the name tells it
     why: str = ""
-    direction: str = ""
+    direction: str = ""  # of a component whose axis the other columns decide, as the name calls it
 
     @property
     def rank(self) -> int:
@@ -80,14 +78,12 @@ Instants = tuple[tuple[str, ...], str, str]
 
 @dataclass(frozen=True)
 class Draft:
-    """A mapping to begin with: its ``text``, the ``questions`` to be answered, channel -> ``certain``, ``likely`` or
-    ``guess``, and in ``notes`` what could not be taken.
-    """
+    """A mapping to begin with."""
 
     text: str
-    questions: tuple[str, ...]
-    sure: Mapping[str, str]
-    notes: tuple[str, ...] = ()
+    questions: tuple[str, ...]  # to be answered
+    sure: Mapping[str, str]  # channel -> one of RANKS
+    notes: tuple[str, ...] = ()  # what could not be taken
 
 
 def draft_mapping(path: Path) -> Draft:

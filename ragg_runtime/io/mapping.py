@@ -41,8 +41,8 @@ from ragg_runtime.io.tables import (
     DataTable,
     find_codes,
     find_decimal,
-    is_quantity,
     parse_quantities,
+    split_quantity,
     write_cell,
 )
 
@@ -466,7 +466,7 @@ def read_quantities(table: DataTable) -> DataTable:
     found = []
     for c in table.columns:
         first = next((t for t in c.values if t not in MISSING), "") if c.is_text else ""
-        if is_quantity(first) and "line" not in c.name.casefold() and not are_packed(c.values):
+        if split_quantity(first)[0] and "line" not in c.name.casefold() and not are_packed(c.values):
             numbers, unit, spoiled = parse_quantities(c.values, decimal)
             c = c if spoiled.any() else replace(c, unit=unit or c.unit, values=numbers)
         found.append(c)

@@ -192,20 +192,14 @@ def write_cell(cell: Any) -> str:
     return str(cell).strip("\0 \t\r\n")
 
 
-def is_quantity(text: str) -> bool:
-    """Whether a cell is a number, however its thousands and decimals are divided, perhaps with a unit."""
-    return _QUANTITY.fullmatch(_write_plain(text)) is not None
+def split_quantity(text: str) -> tuple[str, str]:
+    """Number and unit of a cell, however its thousands and decimals are divided; both empty where it holds no number.
 
-
-def is_number(text: str) -> bool:
-    """Whether a cell is a number without a unit."""
-    match = _QUANTITY.fullmatch(_write_plain(text))
-    return match is not None and not match["unit"]
-
-
-def _write_plain(text: str) -> str:
-    """A number with the minus of print, the D of Fortran or blanks between thousands as programs read it."""
-    return _GROUPED.sub("", _EXPONENT.sub(r"\1e\2", text.replace("\u2212", "-")))
+    The minus of print, the D of Fortran and blanks between thousands become what programs read.
+    """
+    plain = _GROUPED.sub("", _EXPONENT.sub(r"\1e\2", text.replace("\u2212", "-")))
+    match = _QUANTITY.fullmatch(plain)
+    return (match["number"], match["unit"] or "") if match else ("", "")
 
 
 def find_decimal(columns: Iterable[Any]) -> str:
@@ -235,8 +229,7 @@ def parse_quantities(texts: Iterable[str], decimal: str = "") -> tuple[Array, st
     """
     texts = [*texts]
     decimal = decimal or find_decimal([texts])
-    matches = (None if t in MISSING else _QUANTITY.fullmatch(_write_plain(t)) for t in texts)
-    cells = [(m["number"], m["unit"] or "") if m else ("", "") for m in matches]
+    cells = [split_quantity(t) for t in texts]
     given, known = [*dict.fromkeys(u for _, u in cells if u)], units(9.8)
     given = given if all(is_unit(u) and known.fits(u, given[0]) for u in given) else []
     fits = [u in given if given else not u for _, u in cells]

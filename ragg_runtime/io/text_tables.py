@@ -36,12 +36,11 @@ from ragg_runtime.io.tables import (
     DataColumn,
     DataTable,
     find_decimal,
-    is_number,
-    is_quantity,
     is_unit,
     read_heading,
     read_headings,
     require_memory,
+    split_quantity,
     write_cell,
 )
 
@@ -84,7 +83,7 @@ def find_header(rows: Sequence[Sequence[str]]) -> Header | None:
     ]
     data = [_is_data(rows[k]) for k in alike]
     # numbers before the header are followed by other text, or have their names in front
-    kinds = [is_number(rows[k][0]) for k in alike]
+    kinds = [number != "" and not unit for number, unit in (split_quantity(rows[k][0]) for k in alike)]
     share = np.mean([k for k, yes in zip(kinds, data, strict=True) if yes] or [False])
     usual = {True, False} if 0.1 < share < 0.9 else {share > 0.5}
     first = next((k for k in range(len(alike)) if all(data[k : k + 3]) and kinds[k] in usual), len(alike))
@@ -138,7 +137,7 @@ def _is_filled(cell: str) -> bool:
 def _is_data(row: Sequence[str]) -> bool:
     """Whether more cells of a row are numbers or instants than are text."""
     filled = list(filter(_is_filled, row))
-    values = sum(is_quantity(c) or any(find_parts(c)) for c in filled)
+    values = sum(split_quantity(c)[0] != "" or any(find_parts(c)) for c in filled)
     return values > 0 and 2 * values > len(filled)
 
 
