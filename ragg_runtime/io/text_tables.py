@@ -11,6 +11,7 @@ import csv
 import gzip
 import io
 import itertools
+import json
 import re
 import zipfile
 import zlib
@@ -223,11 +224,9 @@ def _read_text(path: Path) -> tuple[bytes, list[str]]:
         if data.startswith(_GZIP):
             require_memory(path, int.from_bytes(data[-4:], "little"))  # its size unpacked, modulo 2^32
             data = gzip.decompress(data)
-        if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-            return data.decode("utf-16").encode(), []
-        for first, order in ((1, "le"), (0, "be")):  # every second byte of plain text, without the mark
-            if data[first:4:2] == b"\0\0":
-                return data.decode(f"utf-16-{order}").encode(), []
+        encoding = json.detect_encoding(data)  # of UTF-16 with its mark or without
+        if not encoding.startswith("utf-8"):
+            return data.decode(encoding).encode(), []
         data = data.removeprefix(b"\xef\xbb\xbf").rstrip(b"\0")  # recorders reserve room ahead
         if (zero := data.find(b"\0")) >= 0:
             line = data.count(b"\n", 0, zero) + 1
@@ -235,9 +234,8 @@ def _read_text(path: Path) -> tuple[bytes, list[str]]:
         try:
             data.decode()
         except UnicodeDecodeError:
-            return data.decode("cp1252", "replace").encode(), [
-                "the file is not UTF-8; read as Windows text (cp1252)"
-            ]
+            note = "the file is not UTF-8; read as Windows text (cp1252)"
+            return data.decode("cp1252", "replace").encode(), [note]
     except (OSError, EOFError, zlib.error, UnicodeError) as error:
         raise UserError(
             "the file is damaged, cut off, or not text",
