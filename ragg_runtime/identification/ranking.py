@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations, compress
+from itertools import chain, combinations, product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -247,82 +248,61 @@ class Probabilities:
         return Probabilities({e: p * share for e, p in self.of.items()}, credible)
 
 
-@dataclass(frozen=True)
-class Sets:
-    """Sets of effects, each once: which of the sorted effects each ``holds`` (sets, effects), and the logarithm of its weight (sets,)."""
-
-    effects: tuple[str, ...]
-    holds: NDArray[np.bool_]
-    logs: Array
-
-    @staticmethod
-    def of(effects: Sequence[str], holds: NDArray[np.bool_], logs: Array) -> Sets:
-        """Of sets that may be there several times: their weights add up."""
-        # a row is one key: an order of rows by column after column takes a sixth of a diagnosis
-        bits = np.packbits(np.pad(~holds, ((0, 0), (1, 0))), axis=1)
-        _, first, place = np.unique(
-            bits.view(f"V{bits.shape[1]}").ravel(), return_index=True, return_inverse=True
-        )
-        total = np.full(len(first), -np.inf)
-        np.logaddexp.at(total, place, logs)
-        return Sets(tuple(effects), holds[first], total)
-
-    def with_one_of(self, options: Sequence[str]) -> Sets:
-        """The sets where one of ``options`` is sure to be present, each as probable as the others beforehand."""
-        effects = sorted({*self.effects, *options})
-        holds = np.zeros((len(options), len(self.logs), len(effects)), dtype=bool)
-        holds[:, :, [effects.index(e) for e in self.effects]] = self.holds
-        for way, option in zip(holds, options, strict=True):
-            way[:, effects.index(option)] = True
-        logs = np.tile(self.logs - np.log(len(options)), len(options))
-        return Sets.of(effects, holds.reshape(-1, len(effects)), logs)
-
-    def probabilities(self) -> Probabilities:
-        """The probability of each effect."""
-        share = np.exp(self.logs - self.logs.max())
-        share /= share.sum()
-        order = np.argsort(-share, kind="stable")
-        enough = int(np.searchsorted(np.cumsum(share[order]), HELD)) + 1
-        credible = tuple(tuple(compress(self.effects, self.holds[s])) for s in order[:enough])
-        of = np.minimum(share @ self.holds, 1.0).tolist()
-        return Probabilities(dict(zip(self.effects, of, strict=True)), credible)
+Weights = Mapping[frozenset[str], float]
+"""How probable sets of effects are, up to a common factor."""
 
 
 def weigh_effects(problem: ProjectedProblem, steps: Sequence[AddedEffect]) -> Probabilities:
     """The probabilities of the remaining effects, and of those in the model: equivalent alternatives share there."""
-    sets = weigh_sets(problem)
+    weights = weigh_sets(problem)
     for t in steps:
-        sets = sets.with_one_of((t.effect, *t.alternatives))
-    return sets.probabilities()
+        # one of them is sure to be present, each as probable as the others beforehand
+        options, more = (t.effect, *t.alternatives), defaultdict[frozenset[str], float](float)
+        for option, (s, weight) in product(options, weights.items()):
+            more[s | {option}] += weight
+        weights = more
+    return _list_probabilities(weights)
 
 
-def weigh_sets(f: ProjectedProblem) -> Sets:
+def _list_probabilities(weights: Weights) -> Probabilities:
+    """Of each effect, and of the sets."""
+    total = sum(weights.values())
+    of = {e: sum(w for s, w in weights.items() if e in s) / total for e in sorted(set().union(*weights))}
+    sets = sorted((-w / total, tuple(sorted(s))) for s, w in weights.items())
+    enough = int(np.searchsorted(np.cumsum([-share for share, _ in sets]), HELD)) + 1
+    return Probabilities({e: min(1.0, p) for e, p in of.items()}, tuple(s for _, s in sets[:enough]))
+
+
+def weigh_sets(f: ProjectedProblem) -> Weights:
     """All sets of up to :data:`LARGEST` of the problem's effects, weighed; in sets of several each is in its most probable way."""
     ways = [
         (e, w) for e in sorted(f.candidates) for w in list_ways(f.P, f.candidates[e], f.floor, weakest=0.0)
     ]
-    effects = [*dict.fromkeys(e for e, _ in ways)]
-    place = np.array([effects.index(e) for e, _ in ways], dtype=np.intp)
+    names = [e for e, _ in ways]
+    effects = [*dict.fromkeys(names)]
     odds = -float(np.log(max(1, len(effects) - 1)))  # of presence, with probability 1/E
     weights = np.array([odds - np.log(w.count) - f.penalty.get(e, 0.0) for e, w in ways])
     length = np.array([w.Q.shape[1] for _, w in ways], dtype=np.intp)
     Q = np.concatenate([np.zeros((len(f.P), 0)), *(w.Q for _, w in ways)], axis=1)
-    sets = [np.zeros((1, 0), dtype=np.intp), np.arange(len(ways), dtype=np.intp)[:, None]]
 
     def weigh_each(some: NDArray[np.intp]) -> Array:
         chi2 = _measure_jointly(Q, f.P[:, -1], length, some)
         return np.asarray(log_bayes(chi2, np.sum(length[some], axis=1)) + np.sum(weights[some], axis=1))
 
-    alone = weigh_each(sets[1])
-    best = [max(np.flatnonzero(place == k), key=lambda n: alone[n]) for k in range(len(effects))]
+    sets = [np.zeros((1, 0), dtype=np.intp), np.arange(len(ways), dtype=np.intp)[:, None]]
+    logs = [np.zeros(1), weigh_each(sets[1])]
+    best = [max((n for n, x in enumerate(names) if x == e), key=logs[1].__getitem__) for e in effects]
     best = sorted(best, key=lambda n: -length[n])  # sets of one shape are worked on at once
     for size in range(2, LARGEST + 1):
         sets.append(np.array([*combinations(best, size)], dtype=np.intp).reshape(-1, size))
-    logs = [np.zeros(1), alone, *(weigh_each(some) for some in sets[2:])]
-    holds = np.zeros((sum(map(len, sets)), len(effects)), dtype=bool)
-    for part, some in zip(np.split(holds, np.cumsum([len(x) for x in sets])), sets, strict=False):
-        part[np.arange(len(some))[:, None], place[some]] = True
-    return Sets.of(effects, holds, np.concatenate(logs))
+        logs.append(weigh_each(sets[-1]))
+    every = np.concatenate(logs)
+    found = defaultdict[frozenset[str], float](float)
+    for some, weight in zip(
+        chain(*(x.tolist() for x in sets)), np.exp(every - every.max()).tolist(), strict=True
+    ):
+        found[frozenset(names[n] for n in some)] += weight
+    return found
 
 
 def _measure_jointly(Q: Array, y: Array, length: NDArray[np.intp], sets: NDArray[np.intp]) -> Array:

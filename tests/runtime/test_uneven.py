@@ -25,7 +25,7 @@ from ragg_runtime.identification.ranking import (
     Probabilities,
     Ranked,
     add_probability,
-    weigh_sets,
+    weigh_effects,
 )
 from ragg_runtime.identification.selection import ProjectedProblem
 from ragg_runtime.model.model import load_packaged
@@ -182,7 +182,7 @@ def test_the_credible_set_holds_the_truth_as_often_as_it_says() -> None:
             R = np.linalg.qr(Z, mode="r")
             b = np.linalg.solve(R, rng.normal(size=len(truth))) * np.sqrt(rng.choice(STRENGTHS))
         y = Z @ b + rng.normal(size=len(X))
-        held += tuple(f"e{k}" for k in truth) in weigh_sets(field_of(X, y)).probabilities().credible
+        held += tuple(f"e{k}" for k in truth) in weigh_effects(field_of(X, y), ()).credible
     assert held >= stats.binom.ppf(0.001, 400, HELD)
 
 
@@ -190,11 +190,11 @@ def test_two_that_the_record_cannot_tell_apart_share_the_probability_and_noise_h
     rng = np.random.default_rng(3)
     X = drawn(rng)
     X[:, 1] = X[:, 0]
-    found = weigh_sets(field_of(X, X[:, 0] * 4.0 + rng.normal(size=len(X)))).probabilities()
+    found = weigh_effects(field_of(X, X[:, 0] * 4.0 + rng.normal(size=len(X))), ())
     assert found.of["e0"] == pytest.approx(found.of["e1"])
     assert 0.4 < found.of["e0"] < 0.6
     assert {("e0",), ("e1",)} <= set(found.credible)
-    nothing = weigh_sets(field_of(drawn(rng), rng.normal(size=60))).probabilities()
+    nothing = weigh_effects(field_of(drawn(rng), rng.normal(size=60)), ())
     assert nothing.credible[0] == ()
     assert max(nothing.of.values()) < 0.3
 
