@@ -8,12 +8,13 @@ that is not quite stationary or not quite white raises no alarm.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage, special
+from scipy import ndimage
 
 from ragg_runtime.estimation.observation import make_block_edges
 from ragg_runtime.estimation.scores import log_sf, log_sf_f
@@ -127,38 +128,21 @@ class BlockScores:
         D, V = (np.concatenate([np.zeros((1, x.shape[1])), np.cumsum(x, axis=0)]) for x in (d, v))
         spans = [(a, a + n) for n in WINDOWS if n < len(d) for a in range(0, len(d) - n + 1, max(1, n // 2))]
         a, b = np.array(spans).T
-        amount, variance = D[b] - D[a], V[b] - V[a]
-        return self._single(amount, variance, (b - a) / len(d), [self._between(*s) for s in spans], rows)
+        how = [f"from {self.time[a]:.4g} to {self.time[b]:.4g} s" for a, b in spans]
+        variance = V[b] - V[a]
+        return _find_largest(
+            _divide((D[b] - D[a]) ** 2, variance), variance, (b - a) / len(d), how, freedom=rows
+        )
 
     def _jump(self, d: Array, v: Array) -> Varying:
         """The coefficient after an instant less that before it, the mean of both taken out."""
         at = np.arange(PARTS, len(d) - PARTS + 1, PARTS)
         D, V = np.cumsum(d[::-1], axis=0)[::-1], np.cumsum(v[::-1], axis=0)[::-1]
         share = _divide(V[at], V[0])
-        amount = D[at] - share * D[0]
         variance = np.where((share > ONE_SIDED) & (share < 1.0 - ONE_SIDED), V[at] * (1.0 - share), 0.0)
-        since = 1.0 - at / len(d)
-        return self._single(
-            amount, variance, since * (1.0 - since), [f"since {self.time[n]:.4g} s" for n in at]
-        )
-
-    def _between(self, a: int, b: int) -> str:
-        return f"from {self.time[a]:.4g} to {self.time[b]:.4g} s"
-
-    @staticmethod
-    def _single(
-        amount: Array, variance: Array, share: Array, how: list[str], rows: float = np.inf
-    ) -> Varying:
-        """The largest of scores of one degree of freedom, (variants, terms); ``share``: mean square of each shape."""
-        chi2 = _divide(amount**2, variance)
-        n, k = np.unravel_index(int(np.argmax(chi2)), chi2.shape)
-        z = float(np.sqrt(chi2[n, k]))
-        share_beyond = 0.0 if np.isinf(rows) else float(special.stdtr(rows, -z))
-        # so far out that the density underflows the normal distribution serves
-        tail = float(np.log(share_beyond) if share_beyond > 0.0 else special.log_ndtr(-z))
-        log_p = tail + float(np.log(2 * len(chi2)))
-        std = float(np.sqrt(share[n] / max(float(variance[n, k]), 1e-300)))
-        return Varying(log_p, int(k), z**2, std * z, std, how[n])
+        since, how = 1.0 - at / len(d), [f"since {self.time[n]:.4g} s" for n in at]
+        chi2 = _divide((D[at] - share * D[0]) ** 2, variance)
+        return _find_largest(chi2, variance, since * (1.0 - since), how)
 
     def _swing(self, d: Array, v: Array) -> Varying:
         middle = (self.time[1:] + self.time[:-1]) / 2
@@ -169,10 +153,19 @@ class BlockScores:
         determinant = cc * ss - cs**2
         clear = determinant > ONE_PHASE * cc * ss
         chi2 = np.where(clear, _divide(C**2 * ss + S**2 * cc - 2 * C * S * cs, determinant), 0.0)
-        n, k = np.unravel_index(int(np.argmax(chi2)), chi2.shape)
-        std, z2 = float(max(float(np.sum(v[:, k])), 1e-300) ** -0.5), float(chi2[n, k])
-        log_p, how = float(np.log(len(CYCLES))) - z2 / 2, f"with a period of {duration / CYCLES[n]:.3g} s"
-        return Varying(log_p, int(k), z2, std * float(np.sqrt(z2)), std, how, rank=2)
+        how = [f"with a period of {duration / cycles:.3g} s" for cycles in CYCLES]
+        return _find_largest(chi2, cc + ss, np.ones(len(CYCLES)), how, rank=2)
+
+
+def _find_largest(
+    chi2: Array, variance: Array, share: Array, how: Sequence[str], rank: int = 1, freedom: float = np.inf
+) -> Varying:
+    """The largest of scores of shapes, (shapes, terms), of ``rank`` coefficients; ``share`` (shapes,): mean square of each shape."""
+    n, k = np.unravel_index(int(np.argmax(chi2)), chi2.shape)
+    best = float(chi2[n, k])
+    std = float(np.sqrt(share[n] / max(float(variance[n, k]), 1e-300)))
+    log_p = log_sf(best, rank, freedom) + float(np.log(len(chi2)))
+    return Varying(log_p, int(k), best, std * float(np.sqrt(best)), std, how[int(n)], rank)
 
 
 def _divide(a: Array, b: Array) -> Array:
