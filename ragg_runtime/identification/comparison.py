@@ -108,13 +108,9 @@ class Comparison:
         return replace(self, nominal=self.fitted.score_residuals(compute_residuals(self.fitted, p)).whole)
 
     def __repr__(self) -> str:
-        errors = (
-            ("nominal", self.nominal.rms_Eo),
-            ("calibrated", self.calibrated.rms_Eo),
-            ("held out", self.holdout.rms_Eo),
-            ("noise", self.noise_floor),
-        )
-        return describe.summarize("Comparison", "adequate" if self.adequate else "not adequate", *errors)
+        errors = {"nominal": self.nominal, "calibrated": self.calibrated, "held out": self.holdout}
+        sizes = (*((name, e.rms_Eo) for name, e in errors.items()), ("noise", self.noise_floor))
+        return describe.summarize("Comparison", "adequate" if self.adequate else "not adequate", *sizes)
 
     def _repr_html_(self) -> str:
         return render_notebook(
@@ -142,7 +138,7 @@ class Comparison:
             "adequate": self.adequate,
             "grounds": list(self.grounds),
             "where": {
-                "harmonics": self.harmonics,
+                "harmonics": measure_harmonics(f, self.residual),
                 "time": self.by_time(),
                 "motion": self.terms(),
             },
@@ -151,17 +147,16 @@ class Comparison:
 
     def _of_outputs(self) -> dict[str, object]:
         """Of an instrument with several outputs each of them, and all together."""
-        if len(self.fitted.instrument.layout.outputs) == 1:
+        f = self.fitted
+        if len(f.instrument.layout.outputs) == 1:
             return {}
         return {
-            "outputs": list_errors_of_outputs(self.fitted, self.residual),
-            "together": [t.as_json() for t in compare_outputs(self.fitted)],
+            "outputs": [
+                {"observation": o.name, "output": o.output.name, **measure_error(e, o.record, k).as_json()}
+                for o, e, k in zip(f.observations, self.residual, f.scales, strict=True)
+            ],
+            "together": [t.as_json() for t in compare_outputs(f)],
         }
-
-    @cached_property
-    def harmonics(self) -> list[dict[str, object]]:
-        """Slow error at every harmonic of the spin, Eo, largest first (see :func:`measure_harmonics`)."""
-        return measure_harmonics(self.fitted, self.residual)
 
     def terms(self) -> list[dict[str, object]]:
         """Generic terms in the calibrated residual (see :func:`list_terms`)."""
@@ -387,11 +382,3 @@ def _estimate_gradient(f: Fitted, n: int) -> tuple[NDArray[np.complex128], float
     there = find_whole(np.ones_like(r.valid), r.valid, d)
     std = float(np.sqrt(d.pass_power(f.prepared[n].noise_psd, 2 * abs(r.spin_frequency)))) / f.scales[n]
     return np.where(there, g, np.nan), std
-
-
-def list_errors_of_outputs(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, object]]:
-    """The error object of every output of every flight."""
-    return [
-        {"observation": o.name, "output": o.output.name, **measure_error(e, o.record, k).as_json()}
-        for o, e, k in zip(f.observations, residuals, f.scales, strict=True)
-    ]
