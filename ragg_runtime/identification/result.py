@@ -130,8 +130,8 @@ class Diagnosis:
         steady = [t for s in self.remainder.searches for t in s.terms if t.kind == "steady"]
         for t in sorted(steady, key=lambda t: -abs(t.z)):
             term = t.term.felt
-            units = [u for c in term.channels if (u := find_channel_unit(c)) != "1"]
-            line = formula.write_effect(term, t.centre, "/".join(("m/s^2", *(f"({u})" for u in units))))
+            unit = self.fitted.instrument.units.divide("m/s^2", map(find_channel_unit, term.channels))
+            line = formula.write_effect(term, t.centre, unit)
             if line is not None:
                 return term, line
         return None

@@ -10,7 +10,7 @@ import contextlib
 import math
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -105,6 +105,13 @@ class Units:
             except Exception:  # what pint raises for a malformed expression is not documented
                 continue
         raise UserError("not a unit", where=where, found=repr(text), expected=_EXAMPLES, remedy=remedy)
+
+    def divide(self, unit: str, by: Iterable[str]) -> str:
+        """A unit over some others, each symbol once: ``1/K`` for m/s^2 over m/s^2 and K."""
+        found = self.parse(unit)
+        for other in by:
+            found /= self.parse(other)
+        return f"{found:~C}".replace("**", "^") or "1"
 
     def to_si(self, value: Value, unit: str, si_unit: str, where: str | None = None) -> Value:
         """``value`` in ``unit``, converted to ``si_unit``; UserError if dimensions differ. rpm and rad/s become turns a second."""

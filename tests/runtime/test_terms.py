@@ -158,7 +158,7 @@ def test_the_line_that_is_offered_takes_what_is_left_away() -> None:
     d = diagnosed(s, flight)
     line = d.expression()
     assert line is not None
-    assert 'add = "K_x*f_i**4"' in line
+    assert 'add = "K_x*f_i**4", K_x = { unit = "s^6/m^3" }' in line
     assert d.needs() == []
     unit = line.split('unit = "')[1].split('"')[0]
     mine = EffectSetting(
