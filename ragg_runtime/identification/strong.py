@@ -292,12 +292,16 @@ class Contest:
         total = problem.chi2
         least = min(total - t.chi2 for t in tests.values())
         near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
-        near = sorted(near, key=lambda e: (-_weigh_evidence(tests[e], len(problem.candidates[e])), e))
+        # charged for the choice of the coefficients that each needs from all that it has
+        columns = {e: len(problem.candidates[e]) for e in near}
+        ways = {e: float(np.log(comb(n, min(tests[e].rank, n)))) for e, n in columns.items()}
+        near = sorted(near, key=lambda e: (ways[e] - tests[e].weigh_alone(), e))
         tried = near[:CONTENDERS]
         left = self._try_effects(tried) if len(tried) > 1 else dict.fromkeys(tried, 0.0)
         best = min(tried, key=lambda e: (left[e], e))
         # effects with the same signature are all of its group, however many they are
-        left |= self._try_effects([e for e in near[CONTENDERS:] if _are_alike(tests[e], tests[best])])
+        same = (e for e in near[CONTENDERS:] if abs(tests[e].chi2 - tests[best].chi2) < INDISTINGUISHABLE)
+        left |= self._try_effects([e for e in same if _as_sure(tests[e], tests[best])])
         equal = {e for e in left if left[e] < left[best] + INDISTINGUISHABLE}
         effect = min((e for e in equal if equal.isdisjoint(problem.contains.get(e, ()))), key=near.index)
         as_near = {e for e in left if left[e] < left[effect] + INDISTINGUISHABLE}
@@ -314,11 +318,6 @@ class Contest:
                 self.left[e], converged = score_fit(self.stage.fitted, *self.stage.derive(e, self.extend))
                 self.arrived |= converged
         return {e: self.left[e] for e in ids}
-
-
-def _weigh_evidence(t: Test, columns: int) -> float:
-    """Log evidence of an effect, charged for the choice of the coefficients that it needs from all that it has."""
-    return t.weigh_alone() - float(np.log(comb(columns, min(t.rank, columns))))
 
 
 def _add_to_model(stage: Stage, effect: str, alternatives: tuple[str, ...], extend: Extend) -> AddedEffect:
@@ -355,11 +354,6 @@ def _test_about_values(f: Fitted) -> dict[str, tuple[frozenset[str], Test]]:
         test = likelihood_ratio.test(P, tested, np.full(P.shape[1], likelihood_ratio.TESTABLE))
         found[effect] = frozenset(q.label for k, q in tested if k not in test.which), test
     return found
-
-
-def _are_alike(a: Test, b: Test) -> bool:
-    """Whether two effects explain the same, with as much evidence, by a linear test."""
-    return abs(a.chi2 - b.chi2) < INDISTINGUISHABLE and _as_sure(a, b)
 
 
 def _as_sure(a: Test, b: Test) -> bool:
