@@ -44,15 +44,9 @@ class ParameterValue:
     accelerometer_name: str = ""
 
     def as_json(self) -> dict[str, object]:
-        own: dict[str, object] = {
-            "name": self.name,
-            "accelerometer": self.accelerometer,
-            "value": self.value,
-            "std": self.std,
-            "unit": self.unit,
-            **spell_name(self.accelerometer, self.accelerometer_name),
-        }
-        return own | ({"weights": list(self.weights)} if self.weights else {})
+        own = {n: getattr(self, n) for n in ("name", "accelerometer", "value", "std", "unit")}
+        weights = {"weights": list(self.weights)} if self.weights else {}
+        return own | spell_name(self.accelerometer, self.accelerometer_name) | weights
 
 
 def list_parameter_values(

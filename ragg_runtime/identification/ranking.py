@@ -147,18 +147,16 @@ CERTAIN = Test(log_p=-np.inf, chi2=np.inf, rank=1, which=(), log_b=np.inf)
 
 
 def list_not_testable(f: Fitted, problem: ProjectedProblem) -> list[NotTestable]:
-    found = []
-    for e in f.model.candidates:
+    def why(e: DerivedEffect) -> str | None:
         missing = sorted({c for o in f.observations for c in e.missing(o.record.recorded)})
         if missing:
-            found.append(NotTestable(e.id, f"the flight has no channel {', '.join(missing)}"))
-        elif not e.searched:
-            found.append(
-                NotTestable(e.id, f"it can look like many other effects: add it by name, ragg add ... {e.id}")
-            )
-        elif e.id in problem.candidates and not problem.testable(e.id):
-            found.append(NotTestable(e.id, _describe_absorption(f, problem, e)))
-    return found
+            return f"the flight has no channel {', '.join(missing)}"
+        if not e.searched:
+            return f"it can look like many other effects: add it by name, ragg add ... {e.id}"
+        absorbed = e.id in problem.candidates and not problem.testable(e.id)
+        return _describe_absorption(f, problem, e) if absorbed else None
+
+    return [NotTestable(e.id, reason) for e in f.model.candidates if (reason := why(e)) is not None]
 
 
 WEAK = 0.5

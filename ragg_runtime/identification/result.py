@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from typing import Literal
 
@@ -137,11 +137,7 @@ class Diagnosis:
         return None
 
     def __repr__(self) -> str:
-        errors = (
-            ("before", self.before.rms_Eo),
-            ("after", self.after.rms_Eo),
-            ("noise", self.noise_floor),
-        )
+        errors = [("before", self.before.rms_Eo), ("after", self.after.rms_Eo), ("noise", self.noise_floor)]
         said = f"{self.verdict}: {', '.join(self.found)}" if self.found else self.verdict
         return describe.summarize("Diagnosis", said, *errors)
 
@@ -162,7 +158,7 @@ class Diagnosis:
             "found": list(self.found),
             "groups": [g.as_json() for g in self.groups],
             "disagree": [x.as_json() for x in self.disagree],
-            "not_testable": [{"effect": n.effect, "why": n.why} for n in self.not_testable],
+            "not_testable": [asdict(n) for n in self.not_testable],
             "unexplained": {
                 "share": self.remainder_share,
                 "log10_p": float(self.remainder.log_p / np.log(10.0)),
@@ -278,15 +274,12 @@ def heed_flags(d: Diagnosis, flights: Sequence[Flight]) -> Diagnosis:
     described = [e for e in d.found if all(e in f.effects for f in odd)]
     if not odd or (described and len(described) == len(d.found)):
         return replace(d, reasons=(*noted, *d.reasons))
-    others = [e for e in d.found if e not in described]
-    would = (
-        (Reason(f"{', '.join(others)} would explain it, but such a record cannot confirm it"),)
-        if others
-        else ()
-    )
-    reasons = (*noted, *would, *(r for r in d.reasons if r.kind != "verdict"))
+    reasons = [*noted]
+    if others := [e for e in d.found if e not in described]:
+        reasons.append(Reason(f"{', '.join(others)} would explain it, but such a record cannot confirm it"))
+    reasons += [r for r in d.reasons if r.kind != "verdict"]
     verdict = name_verdict(claimed=bool(described), remains=True)
-    return replace(_claim_only(d, described), verdict=verdict, reasons=reasons)
+    return replace(_claim_only(d, described), verdict=verdict, reasons=tuple(reasons))
 
 
 def _claim_only(d: Diagnosis, kept: Sequence[str]) -> Diagnosis:

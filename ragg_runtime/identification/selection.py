@@ -132,10 +132,8 @@ class ProjectedProblem:
 
     def significant(self, t: Test, family: float = FAMILY) -> bool:
         """Whether the test of an effect is significant over the family."""
-        log_p = t.log_p if t.rank else 0.0
-        if not np.log(family) - np.log(max(self.count, 1)) <= log_p < np.log(family):
-            return bool(log_p < np.log(family))
-        return is_significant(t, self.effective_count, family)
+        sure, possible = (is_significant(t, count, family) for count in (self.count, 1))
+        return sure or (possible and is_significant(t, self.effective_count, family))
 
     def joint(self, blocks: Sequence[Sequence[int]]) -> tuple[float, int]:
         """(chi-square, rank) of the union of column blocks."""
@@ -162,7 +160,7 @@ def choose(f: ProjectedProblem, *, beside: bool = False) -> Blocks:
         if best is None:
             break
         more = _swap(f, {**chosen, best: tests[best].which})
-        if not chosen.keys() <= more.keys() and _weigh_blocks(f, more) <= _weigh_blocks(f, chosen):
+        if not chosen.keys() <= more.keys() and weigh_blocks(f, more) <= weigh_blocks(f, chosen):
             break  # one that holds another as a special case, and is none the better for it
         chosen = more
     return _settle_blocks(f, chosen)
@@ -196,12 +194,7 @@ def _settle_blocks(f: ProjectedProblem, blocks: Blocks) -> Blocks:
     return blocks
 
 
-def weigh_choice(f: ProjectedProblem, chosen: Blocks) -> float:
-    """Log evidence of what is chosen against nothing, charged for the choice of the effects and of their columns."""
-    return _weigh_blocks(f, chosen) - sum(f.tests()[e].charge for e in chosen)
-
-
-def _weigh_blocks(f: ProjectedProblem, blocks: Blocks) -> float:
+def weigh_blocks(f: ProjectedProblem, blocks: Blocks) -> float:
     """Log evidence of effects together, each with these columns, charged for their choice."""
     chi2, rank = f.joint([*blocks.values()])
     return weigh(chi2, rank, charge=len(blocks) * float(np.log(max(f.count, 1))))

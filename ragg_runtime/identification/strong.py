@@ -121,7 +121,8 @@ class Stage:
 
     def _deviance(self, f: Fitted) -> float:
         """Chi-square of the fit before this stage, with what wider priors cost, less twice the log evidence of what is chosen."""
-        evidence = selection.weigh_choice(self.problem, self.chosen)
+        charge = sum(self.problem.tests()[e].charge for e in self.chosen)
+        evidence = selection.weigh_blocks(self.problem, self.chosen) - charge
         return f.calibration.chi2 + charge_wider_priors(f.instrument, f.calibration) - 2.0 * evidence
 
     def without_choice(self) -> Stage:
