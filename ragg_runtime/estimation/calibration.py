@@ -301,7 +301,9 @@ def _estimate_widths(model: Model, instrument: Instrument, c: Calibration) -> di
     return {n: width[k] for n, k in kinds.items() if wide[k]}
 
 
-def charge_wider_priors(instrument: Instrument, c: Calibration) -> float:
-    """The chi-square price of wider priors: the logarithm of the volume that they add, over the parameters that the record determines."""
+def measure_deviance(instrument: Instrument, c: Calibration) -> float:
+    """Chi-square of a fit with the price of wider priors: the logarithm of the volume that they add, over the parameters that the
+    record determines.
+    """
     width = np.array([instrument.widths.get(q.name, 1.0) for q in c.columns])
-    return float(2.0 * np.log(width) @ np.maximum(0.0, 1.0 - np.diag(c.covariance)))
+    return c.chi2 + float(2.0 * np.log(width) @ np.maximum(0.0, 1.0 - np.diag(c.covariance)))

@@ -4,8 +4,8 @@ A model is never complete: y = h(theta) + d + n, with d what no effect explains.
 
 (a) the claims together explain more than generic terms could on the residual of the model without them: the difference of log
     evidence (``likelihood_ratio.weigh``), each side charged for its coefficients and for what it was chosen from. Where d is
-    significant its generic terms have Gaussian coefficients of one fitted variance, the claims must be ahead plainly, and each must
-    explain more than the best generic term of d;
+    significant its excess over the noise divides both chi-squares, the claims must be ahead plainly, and each must explain more than
+    the best generic term of d;
 (b) its coefficients are significant with a variance estimated from their scores in blocks of time (P. Huber 1967; H. White, Econometrica
     48, 1980), of few blocks with the correction CR2 (R. Bell and D. McCaffrey, Survey Methodology 28, 2002);
 (c) held-out, interleaved blocks of time do not speak against it, by their predictive density.
@@ -14,18 +14,15 @@ A model is never complete: y = h(theta) + d + n, with d what no effect explains.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtri
 
-from ragg_runtime.estimation import calibration
-from ragg_runtime.estimation.calibration import restore_priors
 from ragg_runtime.estimation.fitted import FITTED_BLOCKS, Fitted
 from ragg_runtime.estimation.scores import log_sf, log_sf_f
-from ragg_runtime.identification.dictionary import OUTPUT, Dictionary
 from ragg_runtime.identification.likelihood_ratio import TESTABLE, weigh
 from ragg_runtime.identification.omnibus import Omnibus, Remainder, ResidualTerm
 from ragg_runtime.identification.parameters import list_bounded_columns
@@ -235,32 +232,6 @@ def _weigh_terms(s: Omnibus, claimed: float, most: int, spread: float) -> list[f
     return [weigh(*c, spread) for c in capped]
 
 
-STEP = 0.01
-"""Relative step of a strong term's coefficient: what its chi-square is of is a parabola over a few per cent."""
-
-
-def fit_beside(f: Fitted, t: ResidualTerm) -> float | None:
-    """Chi-square that the model leaves of a flight beside a steady term, all its parameters fitted again, by the noise of ``f``.
-
-    Without the term they were moved so far that a linear fit about them is wrong by more than noise. ``None`` where the term cannot be
-    taken off the record: of several or of thinned ones, of channels, of what the model predicts.
-    """
-    o = f.observations[0]
-    known = all(OUTPUT not in name for name in t.term.channels)
-    if len(f.observations) > 1 or o.thin is not None or o.recorded.demodulated or not known:
-        return None
-    x = np.outer(o.weights, Dictionary(o.record).series(t.term, o.record))
-    sheet = restore_priors(f.instrument)
-
-    def left(coefficient: float) -> float:
-        without = replace(o, series=tuple(np.stack(o.series) - coefficient * x))
-        return calibration.fit(f.model, sheet, [without], noise=f.calibration.noise).chi2
-
-    at = t.coefficient * np.array([1.0 - STEP, 1.0, 1.0 + STEP])
-    parabola = np.polynomial.Polynomial.fit(at, [left(c) for c in at], 2)
-    return left(float(parabola.deriv().roots()[0].real))
-
-
 def find_best_single(bases: Sequence[Remainder]) -> float:
     """Chi-square that the best generic term of one coefficient explains."""
 
@@ -268,11 +239,6 @@ def find_best_single(bases: Sequence[Remainder]) -> float:
         return [t.z**2 for t in (*s.steady[:1], *s.varying) if t.rank == 1]
 
     return max(sum(max([0.0, *singles(s)]) for s in b.searches) for b in bases)
-
-
-def measure_spread(left: Remainder) -> float:
-    """Variance that generic terms have in what is left: 1 where nothing significant is."""
-    return max([1.0, *(s.spread for s in left.searches)]) if left.significant else 1.0
 
 
 def find_strongest(left: Remainder) -> ResidualTerm | None:

@@ -96,8 +96,8 @@ class Omnibus:
 
     ``terms``, ``chi2``, ``square``: what is left, in terms, and what these explain of the whitened residual's sum of squares.
     ``steady``, ``varying``: the significant terms, fitted jointly, and those that come and go, each alone. ``explained``: chi-square of
-    the first 1, 2, ... of the steady terms, with the priors of the base; ``spread``: mean square of all terms' scores; ``shift``: how far
-    the coefficients of the projected columns move when the steady terms are fitted jointly, in scales.
+    the first 1, 2, ... of the steady terms, with the priors of the base; ``shift``: how far the coefficients of the projected columns move
+    when the steady terms are fitted jointly, in scales.
     """
 
     log_p: float
@@ -108,7 +108,6 @@ class Omnibus:
     steady: tuple[ResidualTerm, ...] = ()
     explained: tuple[float, ...] = ()
     varying: tuple[ResidualTerm, ...] = ()
-    spread: float = 1.0
     shift: Array | None = None
 
     @property
@@ -280,8 +279,7 @@ def pursue(s: Scores, tried: int = 0) -> Omnibus:
     z = s.dot / norm
     freedom = s.prepared.noise.freedom
     first = _log_p(z, tried, freedom)
-    spread = float(np.sum(z**2)) / max(tried, 1)
-    nothing = Omnibus(log_p=first, tried=tried, terms=(), chi2=0.0, square=s.square, spread=spread)
+    nothing = Omnibus(log_p=first, tried=tried, terms=(), chi2=0.0, square=s.square)
     if first >= np.log(FAMILY):
         return nothing
     places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, int(np.sum(np.isfinite(norm))))]

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation import calibration, regressors
 from ragg_runtime.estimation import fitted as fitted_
+from ragg_runtime.estimation.calibration import measure_deviance
 from ragg_runtime.estimation.fitted import Fitted, Scored, calibrate, fit
 from ragg_runtime.estimation.regressors import group_by_effect
 from ragg_runtime.identification import comparison, omnibus, selection, strong
-from ragg_runtime.identification.claims import SECOND_ORDER, Regression
+from ragg_runtime.identification.claims import Regression
 from ragg_runtime.identification.comparison import Explained, measure_explained
 from ragg_runtime.identification.likelihood_ratio import Test, weigh
 from ragg_runtime.identification.omnibus import Remainder
@@ -43,17 +44,8 @@ class Outcome:
     @staticmethod
     def of(f: Fitted, effects: Sequence[str], given: Sequence[int]) -> Outcome:
         v = f.vector(f.coefficients(given)[0], given) if given else np.zeros(f.size)
-        (scored,) = f.score([v])
-        rem, random = omnibus.search(f, given, _find_random_columns(f))
-        return Outcome(
-            effects=tuple(effects),
-            target=f,
-            given=tuple(given),
-            coefficients=v,
-            scored=scored,
-            remainder=rem,
-            random=random,
-        )
+        left, random = omnibus.search(f, given, _find_random_columns(f))
+        return Outcome(tuple(effects), f, tuple(given), v, f.score([v])[0], left, random)
 
     @cached_property
     def regression(self) -> Regression:
@@ -119,27 +111,22 @@ class Evidence:
         """Chi-square that an outcome's effects explain of what the model leaves without them, and with how many coefficients."""
         first = self.first
         known = [e for e in o.effects if e in first.problem.candidates]
-        linear, _ = first.problem.joint([self._block(e) for e in known])
+        # the columns of each that are needed, by a linear test of the first stage
+        chosen, tests = {} if self.steps else self.last.chosen, first.problem.tests()
+        linear, _ = first.problem.joint([chosen.get(e) or tests[e].which for e in known])
         rank = self._count_coefficients(o)
-        own = () if o.given else [e for e in o.target.model.effects if e.id in o.effects]
-        remembers = any(e.memory is not None for e in own)
+        remembers = any(e.memory is not None and e.id in o.effects for e in o.target.model.effects)
         if o.given or (linear < strong.STRONG and len(known) == len(o.effects) and not remembers):
             return linear, rank
         # second orders of strong effects: what is left once they are derived into the model, by the noise of the model without them
         f, noise = o.target, first.fitted.calibration.noise
         left = calibration.fit(f.model, f.instrument, f.observations, noise=noise, start=f.calibration.p).chi2
-        fitted = first.problem.chi2 - left
-        return max(linear, min(fitted, (1.0 + SECOND_ORDER) * linear) if o.remains else fitted), rank
+        return max(linear, first.problem.chi2 - left), rank
 
     def _count_coefficients(self, o: Outcome) -> int:
         """How many coefficients of an outcome's effects their tests need."""
         chosen, problem = self.last.chosen, self.last.problem
         return sum(problem.joint([chosen[e]])[1] if e in chosen else self.test(e).rank for e in o.effects)
-
-    def _block(self, effect: str) -> tuple[int, ...]:
-        """The columns of an effect that are needed, by a linear test of the first stage."""
-        beside = {} if self.steps else self.last.chosen
-        return beside.get(effect) or self.first.problem.tests()[effect].which
 
     def charge(self, o: Outcome) -> float:
         """Logarithm of the number of ways in which an outcome's effects may be present."""
@@ -147,9 +134,7 @@ class Evidence:
 
     def alternatives(self) -> Mapping[str, tuple[str, ...]]:
         """For every chosen effect those that would explain as much in its place."""
-        if self.steps:
-            return {t.effect: t.alternatives for t in self.steps}
-        return self.first.alternatives
+        return {t.effect: t.alternatives for t in self.steps} or self.first.alternatives
 
     def without(self, o: Outcome, effect: str) -> Outcome:
         """An outcome without one of its effects, fitted again."""
@@ -171,11 +156,7 @@ class Evidence:
         f = o.target  # by its noise, from its priors
         instrument = replace(instrument, widths=f.instrument.widths)
         without = calibrate(model, instrument, f.observations, noise=f.calibration.noise)
-        less, more = (
-            c.chi2 + calibration.charge_wider_priors(i, c)
-            for i, c in ((f.instrument, f.calibration), without)
-        )
-        return more - less
+        return measure_deviance(*without) - measure_deviance(f.instrument, f.calibration)
 
     def weigh_instead(self, o: Outcome, effect: str) -> float:
         """Log evidence by which an effect that is not searched for is ahead of an outcome's effects, fitted to the same samples."""
@@ -189,12 +170,12 @@ class Evidence:
         known = len(own) - float(np.trace(instead.covariance[np.ix_(own, own)]))
         chosen_sheet, chosen = calibrate(*self._model_with(o.effects), kept, noise=noise)
         without = calibration.fit(f.model, f.instrument, kept, noise=noise, start=f.calibration.p).chi2
-        explained = [
-            max(0.0, without - c.chi2 - calibration.charge_wider_priors(s, c))
-            for s, c in ((sheet, instead), (chosen_sheet, chosen))
-        ]
+        more, less = (
+            max(0.0, without - measure_deviance(*fitted))
+            for fitted in ((sheet, instead), (chosen_sheet, chosen))
+        )
         charge = self.charge(o) + (len(o.effects) - 1) * float(np.log(self.first.problem.count))
-        return weigh(explained[0], known) - weigh(explained[1], self._count_coefficients(o), charge)
+        return weigh(more, known) - weigh(less, self._count_coefficients(o), charge)
 
     def _is_derived(self, o: Outcome) -> bool:
         return self.extend is not None and bool(self.steps or o.target is not self.last.fitted)

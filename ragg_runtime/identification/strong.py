@@ -16,7 +16,7 @@ from scipy.special import comb
 from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation.calibration import (
     QUIET,
-    charge_wider_priors,
+    measure_deviance,
     measure_to_nominal,
     restore_priors,
 )
@@ -123,7 +123,7 @@ class Stage:
         """Chi-square of the fit before this stage, with what wider priors cost, less twice the log evidence of what is chosen."""
         charge = sum(self.problem.tests()[e].charge for e in self.chosen)
         evidence = selection.weigh_blocks(self.problem, self.chosen) - charge
-        return f.calibration.chi2 + charge_wider_priors(f.instrument, f.calibration) - 2.0 * evidence
+        return measure_deviance(f.instrument, f.calibration) - 2.0 * evidence
 
     def without_choice(self) -> Stage:
         """The same, none of the effects being what is missing."""
@@ -204,7 +204,7 @@ def score_fit(f: Fitted, model: Model, sheet: Instrument) -> tuple[float, bool]:
     # Cauchy's tails for those of the prior: of two effects that explain the same, fifty and sixty times as large as usual,
     # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
     tails = float(np.sum(np.log1p(own**2) - own**2))
-    return c.chi2 + left_out + 2.0 * known + tails + charge_wider_priors(instrument, c), c.converged
+    return measure_deviance(instrument, c) + left_out + 2.0 * known + tails, c.converged
 
 
 SCALES = (0.4, 0.8, 1.6, 3.2)

@@ -51,10 +51,9 @@ class Conclusion:
         chosen, line, steady = _without_lines(found)
         terms = GenericTerms.of(found, chosen)
         outcome, weak = (chosen, []) if apart else _drop_unfounded(found, chosen)
-        one = _find_common_kind(found, outcome.effects)
         before = terms.compare(chosen)
         lead = before if outcome is chosen else terms.compare(outcome)
-        while not (lead.claims or one or outcome.remains) and len(outcome.effects) > 1:
+        while not (lead.claims or outcome.remains) and len(outcome.effects) > 1:
             # generic terms do as well as all of these, but perhaps not as well as those without the weakest
             weakest, _ = _find_weakest(found, outcome)
             less = found.without(outcome, weakest)
@@ -62,7 +61,7 @@ class Conclusion:
                 break
             outcome, weak = less, [*weak, weakest]
             lead = terms.compare(outcome)
-        one = one or (_find_better_kind(found, outcome) if lead.claims else None)
+        one = _find_better_kind(found, outcome) if lead.claims else None
         left = outcome.remainder if line is None else line.within(outcome.remainder)
         random = _list_random(outcome, terms.count)
         doubted = apart or outcome.explained.complaint is not None
@@ -279,43 +278,23 @@ class GenericTerms:
 
     def _measure_lead(self, o: Outcome, chi2: float, rank: int) -> float:
         """Log evidence by which an outcome's effects are ahead of the best terms."""
-        spread = max(claims.measure_spread(o.remainder), o.target.calibration.excess) if o.remains else 1.0
+        spread = max(1.0, o.target.calibration.excess) if o.remains else 1.0
         # with a cap, if nothing remains: no terms explain more than all
         terms, _ = claims.weigh_generic_terms(self.base, np.inf if o.remains else chi2, rank, spread)
-        if not o.remains and len(o.effects) > 1:
-            terms = max(terms, self._weigh_strong_term(chi2))
         charge = len(o.effects) * float(np.log(self.count)) + self.found.charge(o)
         return weigh(chi2, rank, charge, spread) - terms
 
-    def _weigh_strong_term(self, chi2: float) -> float:
-        """Log evidence of the strongest term, if a linear fit is too rough for it, with the model fitted again beside it."""
-        first, (s, *more) = self.found.first, self.base[0].searches
-        if more or not s.steady or s.steady[0].chi2 < strong.STRONG:
-            return -np.inf
-        left = claims.fit_beside(first.fitted, s.steady[0])
-        if left is None:
-            return -np.inf
-        return weigh(min(first.problem.chi2 - left, chi2 + 1.0), 1, float(np.log(s.tried)))
-
-
-def _find_common_kind(found: Evidence, effects: Sequence[str]) -> str | None:
-    """The effect of which several of these, or what cannot be told from them, are special cases: of a resonance its low frequencies."""
-    return next((k for k, cases in _count_cases(found, effects).items() if cases > 1), None)
-
 
 def _find_better_kind(found: Evidence, o: Outcome) -> str | None:
-    """The effect of which one of an outcome's effects is a special case, and which explains plainly more than all of them."""
-    kinds = (k for k, cases in _count_cases(found, o.effects).items() if cases)
-    return next((k for k in kinds if found.weigh_instead(o, k) > DISTINGUISHABLE), None)
-
-
-def _count_cases(found: Evidence, effects: Sequence[str]) -> dict[str, int]:
-    """How many of the effects, or what cannot be told from them, are special cases of each that is not searched for."""
+    """The effect that explains plainly more than all of an outcome's effects, of those that are not searched for and of which one of
+    these, or what cannot be told from it, is a special case.
+    """
     others = found.alternatives()
-    groups = [{e, *others.get(e, ())} for e in effects]
+    own = {x for e in o.effects for x in (e, *others.get(e, ()))}
     # those that are searched for have been compared themselves
-    kinds = {e.id: {e.id, *e.contains} for e in found.first.fitted.model.candidates if not e.searched}
-    return {k: sum(bool(own & g) for g in groups) for k, own in kinds.items()}
+    kinds = (e for e in found.first.fitted.model.candidates if not e.searched)
+    cases = (e.id for e in kinds if not own.isdisjoint((e.id, *e.contains)))
+    return next((k for k in cases if found.weigh_instead(o, k) > DISTINGUISHABLE), None)
 
 
 def _find_shared_term(chi2: float, base: Sequence[Remainder]) -> ResidualTerm | None:
