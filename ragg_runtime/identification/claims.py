@@ -24,7 +24,7 @@ from scipy.special import fdtri
 from ragg_runtime.estimation.fitted import FITTED_BLOCKS, Fitted
 from ragg_runtime.estimation.scores import log_sf, log_sf_f
 from ragg_runtime.identification.likelihood_ratio import TESTABLE, weigh
-from ragg_runtime.identification.omnibus import Omnibus, Remainder, ResidualTerm
+from ragg_runtime.identification.omnibus import Omnibus, Remainder
 from ragg_runtime.identification.parameters import list_bounded_columns
 
 Array = NDArray[np.float64]
@@ -239,11 +239,6 @@ def find_best_single(bases: Sequence[Remainder]) -> float:
         return [t.z**2 for t in (*s.steady[:1], *s.varying) if t.rank == 1]
 
     return max(sum(max([0.0, *singles(s)]) for s in b.searches) for b in bases)
-
-
-def find_strongest(left: Remainder) -> ResidualTerm | None:
-    """The most significant generic term of the residual."""
-    return max((t for s in left.searches for t in s.terms), key=lambda t: abs(t.z), default=None)
 
 
 def add_shift(x: Regression, left: Remainder, columns: Sequence[str], projected: Sequence[str]) -> Array:

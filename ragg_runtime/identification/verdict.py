@@ -92,30 +92,25 @@ class Conclusion:
             shared=_find_shared_term(lead.chi2, terms.base) if alone else None,
         )
 
-    def _list_remarks(self, *, spent: bool) -> list[str | None]:
-        """What else than the effects found would do, and how the record is disturbed."""
-        return [
+    def reasons(self, apart: str | None, *, spent: bool) -> list[Reason]:
+        """Why the verdict is not ``adequate``, and what is odd about the record; ``apart``: how its flights disagree."""
+        doubt = apart or self.outcome.explained.complaint
+        if doubt:
+            return [Reason(doubt, kind="remark")]
+        texts = [
             None if self.line is None else self.line.words,
             *(s.words for s in self.steady),
             f"the search stopped after {strong.FITS} fits" if spent and self.remains else None,
             comparison.describe_disturbance(self.outcome.target),
         ]
-
-    def reasons(self, apart: str | None, *, spent: bool) -> list[Reason]:
-        """Why the verdict is not ``adequate``, and what is odd about the record; ``apart``: how its flights disagree."""
-        doubt = apart or self.outcome.explained.complaint
-        texts = self._list_remarks(spent=spent) if doubt is None else [doubt]
         remarks = [Reason(text, kind="remark") for text in texts if text is not None]
-        if self.verdict == "adequate" or doubt:
-            return remarks
         found = []
         if self.claims:
-            sure = "is certain" if len(self.claims) == 1 else "are certain"
-            how = sure if self.remains else "is missing" if len(self.claims) == 1 else "are missing"
-            found.append(Reason(f"{join_names(self.claims)} {how}", kind="verdict"))
+            verb, how = "is" if len(self.claims) == 1 else "are", "certain" if self.remains else "missing"
+            found.append(Reason(f"{join_names(self.claims)} {verb} {how}", kind="verdict"))
         if self.remains:
             found += self._left()
-        if self.open:
+        if found and self.open:
             names = join_names(self.open[:3], "or")
             found.append(Reason(f"the record is not sufficient to decide whether {names} is also present"))
         return [*found, *remarks]
@@ -131,15 +126,13 @@ class Conclusion:
             generic = f"a generic term, {terms[0]}" if terms else "generic terms"
             return [Reason(f"{join_names(o.effects)} would explain it no better than {generic}")]
         found = [] if o.complaint is None else [Reason(o.complaint)]
-        if terms:
-            found.append(
-                Reason(f"the residual is more than noise, mostly {terms[0]}", kind="verdict"),
-            )
         noise = "the residual is more than noise by all generic terms together, none of which stands out"
-        if o.exceeds_noise:
+        if terms:
+            noise = f"the residual is more than noise, mostly {terms[0]}"
+        elif o.exceeds_noise:
             rms = o.scored.whole.rms_Eo
             noise = f"the residual, {rms:.3g} Eo, is more than the noise of {o.noise_floor:.3g} Eo"
-        return found or [Reason(noise, kind="verdict")]
+        return [*found, Reason(noise, kind="verdict")] if terms or not found else found
 
 
 OPEN = 0.1
@@ -212,8 +205,8 @@ def _measure_log_p(found: Evidence, o: Outcome, effect: str) -> float:
 
 def _compare_with_strongest(o: Outcome, s: Significance, log_p: float) -> float:
     """The p-value of an effect; 0 if it does not explain plainly more than the best generic term does of what is left."""
-    left = claims.find_strongest(o.remainder) if o.remainder.significant else None
-    return 0.0 if left is not None and s.chi2 - s.rank < claims.MORE * left.z**2 else log_p
+    left = [t.z**2 for x in o.remainder.searches for t in x.terms] if o.remainder.significant else []
+    return 0.0 if s.chi2 - s.rank < claims.MORE * max(left, default=-np.inf) else log_p
 
 
 def _is_significant(found: Evidence, o: Outcome, log_p: float) -> bool:
