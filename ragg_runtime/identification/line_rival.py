@@ -64,29 +64,29 @@ class LineAlternative:
 
 @dataclass(frozen=True)
 class Steady:
-    """An effect of which the record shows no more than a constant term: a sinusoid at ``turns`` times the spin rate, Hz.
-
-    ``others`` would do as well; ``width``: how far off a line may be that explains as much (3 sigma), Hz; ``None``: none does.
+    """An effect of which the record shows no more than a constant term, a sinusoid at a multiple of the spin rate; ``others`` would do as
+    well. ``exactly``: a ``line`` beside the multiple explains as much.
     """
 
     effect: str
     others: tuple[str, ...]
-    turns: int
-    frequency: float
-    width: float | None
+    line: NearLine
+    exactly: bool
 
     @property
     def name(self) -> str:
         """What it is called."""
-        return Term(f"cos {self.turns}", ()).words
+        return Term(f"cos {self.line.turns}", ()).words
 
     @property
     def words(self) -> str:
         others = f", like {', '.join(self.others)}" if self.others else ""
         said = f"{self.effect} acts as {self.name}{others}"
-        if self.width is None:
+        if not self.exactly:
             return said
-        return f"{said}; a line within {self.width:.1g} Hz of {self.frequency:.6g} Hz would explain it too"
+        # three times Cramer-Rao: 12 over the square of duration and of signal to noise, rad/s (Rife and Boorstyn, IEEE Trans. IT 20, 1974)
+        width = 3.0 * float(np.sqrt(12.0 / self.line.chi2)) / (2 * np.pi * self.line.duration)
+        return f"{said}; a line within {width:.1g} Hz of {self.line.multiple:.6g} Hz would explain it too"
 
 
 def find_line_rival(
@@ -100,12 +100,13 @@ def find_line_rival(
         line = find_best_line(fitted, beside)
         if line is None:
             continue
-        if line.replaces(chi2):
+        at_multiple, enough = line.chi2 - line.slip, chi2 - INDISTINGUISHABLE
+        surely = line.log_p <= np.log(false_alarms.REMAINDER)
+        if line.slip >= SLIP and line.chi2 >= enough and surely:
             return LineAlternative(line=line, effects=effects, own=chi2), ()
         # a line at the very multiple explains as much, or all but a small part
-        at_multiple, enough = line.chi2 - line.slip, chi2 - INDISTINGUISHABLE
         if len(effects) == 1 and at_multiple >= min(enough, CONSTANT * chi2):
-            steady.append(line.as_steady(effects[0], others, fitted, exactly=at_multiple >= enough))
+            steady.append(Steady(effects[0], others, line, exactly=at_multiple >= enough))
     return None, tuple(steady)
 
 
@@ -148,8 +149,10 @@ DISTINCT = 1e-6
 
 @dataclass(frozen=True)
 class NearLine:
-    """A sinusoid in the residual of a record: Hz, chi-square given what is fitted, V; ``slip`` is how much of ``chi2`` one at the
-    very multiple would not explain, ``log_p`` counts the frequencies tried.
+    """A sinusoid in the residual of a record of some ``duration``, s: Hz, chi-square given what is fitted, V.
+
+    ``slip`` is how much of ``chi2`` one at the very ``multiple``, Hz, ``turns`` times the spin rate, would not explain; ``log_p`` counts
+    the frequencies tried.
     """
 
     frequency: float
@@ -157,19 +160,9 @@ class NearLine:
     amplitude: float
     slip: float
     log_p: float
-
-    def replaces(self, chi2: float) -> bool:
-        """Whether it is plainly off the multiple, and explains as much as effects that explain a chi-square."""
-        explains = self.chi2 >= chi2 - INDISTINGUISHABLE and self.log_p <= np.log(false_alarms.REMAINDER)
-        return bool(self.slip >= SLIP and explains)
-
-    def as_steady(self, effect: str, others: tuple[str, ...], f: Fitted, *, exactly: bool) -> Steady:
-        """An effect that explains what the line does; ``exactly``: as one at the very multiple does."""
-        r = f.prepared[0].observation.record
-        turns = round(self.frequency / r.spin_frequency)
-        # Cramer-Rao: 12 over the square of duration and of signal to noise, rad/s (Rife and Boorstyn, IEEE Trans. IT 20, 1974)
-        width = 3.0 * float(np.sqrt(12.0 / self.chi2)) / (2 * np.pi * float(r.time[-1] - r.time[0]))
-        return Steady(effect, others, turns, turns * r.spin_frequency, width if exactly else None)
+    turns: int
+    multiple: float
+    duration: float
 
 
 def find_best_line(f: Fitted, given: Sequence[int]) -> NearLine | None:
@@ -183,7 +176,8 @@ def find_best_line(f: Fitted, given: Sequence[int]) -> NearLine | None:
     r = x.observation.record
     if not r.turning:
         return None
-    width = 1.0 / float(r.time[-1] - r.time[0])
+    duration = float(r.time[-1] - r.time[0])
+    width = 1.0 / duration
     offsets = np.arange(-REACH, REACH + STEP / 2, STEP) * width
     found = np.concatenate([m * r.spin_frequency + offsets for m in MULTIPLES])
     found = found[found < r.rate / 2 - width]
@@ -191,7 +185,8 @@ def find_best_line(f: Fitted, given: Sequence[int]) -> NearLine | None:
         return None
     first = _measure_lines(x, projector, found)
     rough = float(found[int(np.argmax(first[0]))])
-    multiple = round(rough / r.spin_frequency) * r.spin_frequency
+    turns = round(rough / r.spin_frequency)
+    multiple = turns * r.spin_frequency
     near = np.append(rough + np.linspace(-STEP, STEP, 2 * FINER + 1) * width, multiple)
     chi2, size = _measure_lines(x, projector, near)
     k = int(np.argmax(chi2[:-1]))
@@ -204,6 +199,9 @@ def find_best_line(f: Fitted, given: Sequence[int]) -> NearLine | None:
         amplitude=float(size[k] * np.sqrt(volts2)),
         slip=float(chi2[k] - chi2[-1]),
         log_p=min(0.0, float(np.log(len(found)) - chi2[k] / 2)),  # of two degrees of freedom
+        turns=turns,
+        multiple=multiple,
+        duration=duration,
     )
 
 
