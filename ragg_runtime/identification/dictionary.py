@@ -49,7 +49,6 @@ HIGHEST_OF_ONE = 6
 MOTION = tuple(f"{n}_{k}" for n in ("a", "omega", "omegadot") for k in "xyz")
 _CUBIC = tuple(f"{n}_{k}" for n in ("a", "omega") for k in "xyz")
 _RATES = tuple(f"{d}_{n}_{k}" for d, n in (("d", "a"), ("d2", "a"), ("d", "omegadot")) for k in "xyz")
-_NOT_A_CHANNEL = frozenset(GRADIENT)
 
 _FORCES = (*FORCES, "a_z")
 """What the first accelerometer feels along its input, output and (but for the sign) pendulous axis."""
@@ -122,8 +121,11 @@ class Dictionary:
 
     def __init__(self, r: Record, output: Array | None = None) -> None:
         self._record = r
-        self._of_output = {} if output is None else _make_functions(output)
-        centred = sorted(n for n in r.wide if n not in MOTION and _is_channel(n))
+        self._of_output: dict[str, Array] = {}
+        if output is not None:
+            bent = {f"abs({OUTPUT})": np.abs(output), f"sign({OUTPUT})": np.sign(output)}
+            self._of_output = {OUTPUT: output, **bent}
+        centred = sorted(n for n in r.wide if n not in (*MOTION, *GRADIENT) and not is_disc_angle(n))
         self.centre: Mapping[str, float] = {}
         self.centre = {n: float(np.mean(self._channel(n, r)[r.valid])) for n in (*centred, "time")}
         rates = [n for n in _RATES if n.partition("_")[2] in r.wide]
@@ -215,18 +217,11 @@ class Dictionary:
         rows = slice(first, first + len(r.time))
         if name in self._of_output:
             return self._of_output[name][rows]
-        if is_slow(name):
+        if isinstance(
+            series_name.series(name), Relaxation
+        ):  # it remembers more than a part of a record holds
             return relax(name, self._record, rows, self.centre)
         return make_series(name, r, self.centre)
-
-
-def _make_functions(output: Array) -> dict[str, Array]:
-    return {OUTPUT: output, f"abs({OUTPUT})": np.abs(output), f"sign({OUTPUT})": np.sign(output)}
-
-
-def _is_channel(name: str) -> bool:
-    """Whether a column that is no motion may enter a term: not gradients, nor the angles of discs."""
-    return name not in _NOT_A_CHANNEL and not is_disc_angle(name)
 
 
 def list_generic(auxiliary: Sequence[str]) -> list[tuple[str, ...]]:
@@ -312,11 +307,6 @@ def whiten_terms(
 # :mod:`ragg_runtime.base.series_name`. ``f_i`` and ``f_o`` are the specific force along the input and output axes of the first
 # accelerometer, a_y cos phi - a_x sin phi and a_x cos phi + a_y sin phi (those of the others are the same up to sign, in the third and
 # fourth with f_i and f_o exchanged).
-
-
-def is_slow(name: str) -> bool:
-    """Whether a series remembers more of the past than a part of a record holds."""
-    return isinstance(series_name.series(name), Relaxation)
 
 
 def is_recorded(name: str, r: Record) -> bool:

@@ -77,17 +77,9 @@ class ResidualTerm:
     @staticmethod
     def of_line(frequency: float, amplitude: float, chi2: float) -> ResidualTerm:
         """A line of so many Hz and V."""
-        z = float(np.sqrt(chi2))
-        return ResidualTerm(
-            term=Term(f"line {frequency:.5g} Hz", ()),
-            coefficient=amplitude,
-            std=amplitude / max(z, 1.0),
-            z=z,
-            chi2=chi2,
-            mean_square=amplitude**2 / 2,
-            kind="line",
-            rank=2,
-        )
+        term, z = Term(f"line {frequency:.5g} Hz", ()), float(np.sqrt(chi2))
+        std, mean_square = amplitude / max(z, 1.0), amplitude**2 / 2
+        return ResidualTerm(term, amplitude, std, z, chi2, mean_square, kind="line", rank=2)
 
 
 @dataclass(frozen=True)
@@ -149,26 +141,22 @@ class Scores:
         def count_in(piece: Piece) -> T:
             Q = self.projector.basis(piece)
             y = self.projector.left(piece, Q)
-            self._add(piece, y, Q)
+            self.square += float(y @ y)
+            self.samples += int(np.sum(piece.observation.record.valid))
+            self.blocks.level(piece, y)
+            self.spectrum.add(piece, y)
+            right = np.column_stack([y, Q])
+            for at, x, X in self._whitened(piece, self.dictionary.terms):
+                inner = X @ right
+                self.dot[at] += inner[:, 0]
+                self.along[at] += inner[:, 1:]
+                self.norm2[at] += np.einsum("ij,ij->i", X, X)
+                self.blocks.add(piece, y, at, X)
+                self.raw[0][at] += np.sum(x, axis=1)
+                self.raw[1][at] += np.einsum("ij,ij->i", x, x)
             return further(piece, y)
 
         return [*self.prepared.each(count_in)]
-
-    def _add(self, piece: Piece, y: Array, Q: Array) -> None:
-        """Count in one segment; y (rows,) is what the projector, with basis Q (rows, k), leaves of it."""
-        self.square += float(y @ y)
-        self.samples += int(np.sum(piece.observation.record.valid))
-        self.blocks.level(piece, y)
-        self.spectrum.add(piece, y)
-        right = np.column_stack([y, Q])
-        for at, x, X in self._whitened(piece, self.dictionary.terms):
-            inner = X @ right
-            self.dot[at] += inner[:, 0]
-            self.along[at] += inner[:, 1:]
-            self.norm2[at] += np.einsum("ij,ij->i", X, X)
-            self.blocks.add(piece, y, at, X)
-            self.raw[0][at] += np.sum(x, axis=1)
-            self.raw[1][at] += np.einsum("ij,ij->i", x, x)
 
     def _whitened(self, piece: Piece, terms: Sequence[Term]) -> Iterator[tuple[slice, Array, Array]]:
         return whiten_terms(self.prepared, self.dictionary, piece, terms, self.only)
@@ -346,15 +334,8 @@ def _as_term(s: Scores, place: int, z: float, amount: float, length: float) -> R
     std = 1.0 / (float(s.norms[place]) * length * size)
     mean, square = (x[place] / max(s.samples, 1) for x in s.raw)
     spread = square - mean**2 if term.harmonic == "const" else square
-    return ResidualTerm(
-        term=term,
-        coefficient=amount * std,
-        std=std,
-        z=z,
-        chi2=amount**2,
-        mean_square=(amount * std * size) ** 2 * float(spread),
-        centre=s.dictionary.centre,
-    )
+    mean_square = (amount * std * size) ** 2 * float(spread)
+    return ResidualTerm(term, amount * std, std, z, amount**2, mean_square, centre=s.dictionary.centre)
 
 
 def _log_p(z: Array, tried: int, freedom: Array | float = np.inf) -> float:
@@ -423,21 +404,23 @@ def search_residuals(f: Fitted) -> list[Remainder]:
 
 def list_terms(rem: Remainder, mean_squares: Sequence[float]) -> list[dict[str, object]]:
     """Generic terms in residuals of these mean squares, V^2, largest first; ``share`` is of the power."""
-    best: dict[tuple[str, str], dict[str, object]] = {}
+    best: dict[tuple[str, str], tuple[ResidualTerm, float]] = {}
     for s, power in zip(rem.searches, mean_squares, strict=True):
         for t in s.terms:
             key = (t.term.harmonic, t.term.product)
-            row = {
-                "harmonic": t.term.harmonic,
-                "term": t.term.product,
-                "coefficient": float(t.coefficient),
-                "std": float(t.std),
-                "unit": find_term_unit(t.term.channels),
-                "share": min(1.0, t.mean_square / power),
-                "z": t.z,
-                "kind": t.kind,
-                "how": t.how,
-            }
-            if key not in best or abs(t.z) > abs(float(str(best[key]["z"]))):
-                best[key] = row
-    return sorted(best.values(), key=lambda x: -abs(float(str(x["z"]))))
+            if key not in best or abs(t.z) > abs(best[key][0].z):
+                best[key] = t, min(1.0, t.mean_square / power)
+    return [
+        {
+            "harmonic": t.term.harmonic,
+            "term": t.term.product,
+            "coefficient": float(t.coefficient),
+            "std": float(t.std),
+            "unit": find_term_unit(t.term.channels),
+            "share": share,
+            "z": t.z,
+            "kind": t.kind,
+            "how": t.how,
+        }
+        for t, share in sorted(best.values(), key=lambda x: -abs(x[0].z))
+    ]
