@@ -132,7 +132,7 @@ RULES = (
     Rule("claims-beside", "claims beside a remainder at all",
          f"{OUTSIDE}, off-sheet red, strong white", {"identification.claims.MORE": np.inf}),
     Rule("claims-evidence", "the log evidence of claims is ahead of that of generic terms",
-         f"{OUTSIDE}, five white, pair red", {"identification.verdict.GenericTerms._measure_lead": _always(1e6)}),
+         f"{OUTSIDE}, five white, pair red", {"identification.verdict._measure_lead": _always(1e6)}),
     Rule("sheet-as-said", "effects beside a sheet as sure as it says compete with a sheet that is less sure",
          f"{WEAK}, {OFF}, quiet white, quiet red", {"identification.strong._with_priors_of_sheet": _always(None)}),
     Rule("needed", "which coefficients a strong effect needs is seen about the values of a fit",

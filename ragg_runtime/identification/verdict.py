@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from scipy.special import expit
@@ -49,10 +50,12 @@ class Conclusion:
     def of(found: Evidence, output: Sequence[str], *, apart: bool) -> Conclusion:
         """Judge what the search has found; ``output``: what the recorder did."""
         chosen, line, steady = _without_lines(found)
-        terms = GenericTerms.of(found, chosen)
+        base = omnibus.search_residuals(found.first.fitted) if chosen.effects else []
+        count = found.first.problem.count + len(chosen.random)
+        compare = partial(_compare_with_terms, found, base, count)
         outcome, weak = (chosen, []) if apart else _drop_unfounded(found, chosen)
-        before = terms.compare(chosen)
-        lead = before if outcome is chosen else terms.compare(outcome)
+        before = compare(chosen)
+        lead = before if outcome is chosen else compare(outcome)
         while not (lead.claims or outcome.remains) and len(outcome.effects) > 1:
             # generic terms do as well as all of these, but perhaps not as well as those without the weakest
             weakest, _ = _find_weakest(found, outcome)
@@ -60,10 +63,10 @@ class Conclusion:
             if less.remains:
                 break
             outcome, weak = less, [*weak, weakest]
-            lead = terms.compare(outcome)
+            lead = compare(outcome)
         one = _find_better_kind(found, outcome) if lead.claims else None
         left = outcome.remainder if line is None else line.within(outcome.remainder)
-        random = _list_random(outcome, terms.count)
+        random = _list_random(outcome, count)
         doubted = apart or outcome.explained.complaint is not None
         claimed = () if doubted or one is not None else lead.claims
         # noise that follows the motion grows with the motion: a random effect models just that
@@ -71,7 +74,7 @@ class Conclusion:
         remains = line is not None or left.significant or outcome.complaint is not None or exceeds
         rival = bool(outcome.effects) and not claimed and not remains
         if rival:  # generic terms do as well as what was chosen: they are what is left
-            _, left = claims.weigh_generic_terms(terms.base, np.inf, lead.rank)
+            _, left = claims.weigh_generic_terms(base, np.inf, lead.rank)
         remains = remains or rival or doubted
         if not remains:
             claimed = (*claimed, *random[:1])
@@ -89,7 +92,7 @@ class Conclusion:
             share=float(expit(before.ahead)),
             rival=rival,
             one=None if claimed else one,
-            shared=_find_shared_term(lead.chi2, terms.base) if alone else None,
+            shared=_find_shared_term(lead.chi2, base) if alone else None,
         )
 
     def reasons(self, apart: str | None, *, spent: bool) -> list[Reason]:
@@ -240,42 +243,28 @@ class Lead:
     claims: tuple[str, ...]
 
 
-@dataclass(frozen=True, eq=False)
-class GenericTerms:
-    """The terms that chosen effects compete with: ``base``, searches of the residual of the model without effects; ``count``: of how many
-    the effects were chosen.
-    """
+def _compare_with_terms(found: Evidence, base: Sequence[Remainder], count: int, o: Outcome) -> Lead:
+    """An outcome's effects, chosen of so many, with as many generic terms in searches of the residual of the model without effects."""
+    if not o.effects:
+        return Lead(0.0, 0, np.inf, ())
+    chi2, rank = found.explained(o)
+    charge = len(o.effects) * float(np.log(count)) + found.charge(o)
+    ahead = _measure_lead(o, base, chi2, rank, charge)
+    if o.remains:
+        more = chi2 - rank > claims.MORE * claims.find_best_single(base)
+        claimed = more and ahead > DISTINGUISHABLE
+    else:
+        # between an effect that leaves only noise and generic terms that do as well, the effect, known to occur, is taken
+        claimed = ahead > (-DISTINGUISHABLE if len(o.effects) == 1 else 0.0)
+    return Lead(chi2, rank, ahead, o.effects if claimed else ())
 
-    found: Evidence
-    base: Sequence[Remainder]
-    count: int
 
-    @staticmethod
-    def of(found: Evidence, chosen: Outcome) -> GenericTerms:
-        base = omnibus.search_residuals(found.first.fitted) if chosen.effects else []
-        return GenericTerms(found, base, found.first.problem.count + len(chosen.random))
-
-    def compare(self, o: Outcome) -> Lead:
-        """An outcome's effects with terms of as many coefficients."""
-        if not o.effects:
-            return Lead(0.0, 0, np.inf, ())
-        chi2, rank = self.found.explained(o)
-        ahead = self._measure_lead(o, chi2, rank)
-        if o.remains:
-            more = chi2 - rank > claims.MORE * claims.find_best_single(self.base)
-            claimed = more and ahead > DISTINGUISHABLE
-        else:
-            # between an effect that leaves only noise and generic terms that do as well, the effect, known to occur, is taken
-            claimed = ahead > (-DISTINGUISHABLE if len(o.effects) == 1 else 0.0)
-        return Lead(chi2, rank, ahead, o.effects if claimed else ())
-
-    def _measure_lead(self, o: Outcome, chi2: float, rank: int) -> float:
-        """Log evidence by which an outcome's effects are ahead of the best terms."""
-        spread = max(1.0, o.target.calibration.excess) if o.remains else 1.0
-        # with a cap, if nothing remains: no terms explain more than all
-        terms, _ = claims.weigh_generic_terms(self.base, np.inf if o.remains else chi2, rank, spread)
-        charge = len(o.effects) * float(np.log(self.count)) + self.found.charge(o)
-        return weigh(chi2, rank, charge, spread) - terms
+def _measure_lead(o: Outcome, base: Sequence[Remainder], chi2: float, rank: int, charge: float) -> float:
+    """Log evidence by which an outcome's effects, which explain a chi-square, are ahead of the best terms."""
+    spread = max(1.0, o.target.calibration.excess) if o.remains else 1.0
+    # with a cap, if nothing remains: no terms explain more than all
+    terms, _ = claims.weigh_generic_terms(base, np.inf if o.remains else chi2, rank, spread)
+    return weigh(chi2, rank, charge, spread) - terms
 
 
 def _find_better_kind(found: Evidence, o: Outcome) -> str | None:
