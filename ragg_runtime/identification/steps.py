@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from itertools import count
 from types import MappingProxyType
@@ -19,7 +19,6 @@ from ragg_runtime.estimation.observation import BLOCKS, ROWS
 from ragg_runtime.estimation.regressors import Column, group_by_effect
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight
 from ragg_runtime.identification import likelihood_ratio, selection
-from ragg_runtime.identification.likelihood_ratio import Test
 from ragg_runtime.identification.selection import ProjectedProblem, list_testable, make_problem
 
 Array = NDArray[np.float64]
@@ -27,20 +26,12 @@ Array = NDArray[np.float64]
 Columns = Mapping[str, Sequence[tuple[int, Column]]]
 """The columns of every step, with their places among the candidates."""
 
-BESIDE = 20.0
-"""Logarithm of the p-value by which a step must be surer beside the first effect than by itself to be taken at that instant."""
-
-
-@dataclass(frozen=True)
-class Step:
-    """The first sample after a step, and the candidate columns of other effects beside which it was found."""
-
-    sample: int
-    given: Sequence[int]
+Steps = Mapping[str, int]
+"""The first sample after each step."""
 
 
 def add_steps(
-    f: Fitted, known: Mapping[str, Step] = MappingProxyType({})
+    f: Fitted, known: Steps = MappingProxyType({})
 ) -> tuple[ProjectedProblem, Fitted, dict[str, float]]:
     """The problem of all candidates, the fit in which the columns of each step begin at its most likely instant, and these instants by
     effect, s.
@@ -52,18 +43,17 @@ def add_steps(
     columns = {e: own for e, own in group_by_effect(f.candidates).items() if e in kinds}
     if len(f.flights) != 1 or not columns:
         return make_problem(f), f, {}
-    known = {e: _sharpen(f, step, columns[e]) for e, step in known.items()}
+    known = {e: _sharpen(f, sample, columns[e]) for e, sample in known.items()}
     f = _begin_at(f, known) if known else f
-    chosen = selection.choose(make_problem(f, [*available, *known]))
-    beside = [n for n, c in enumerate(f.candidates) if c.effect in chosen]
-    likeliest = _scan(f, {e: own for e, own in columns.items() if e not in known}, beside)
+    edges = [int(k) for k in f.prepared[0].edges[1:-1]]
+    likeliest = _find_best_edges(f, f.r_factors, edges, {e: c for e, c in columns.items() if e not in known})
     begun = _zero_before(f, likeliest, columns)
     problem = make_problem(begun, [*available, *columns])
     # samples do not judge a step yet: one that is in the noise makes it uneven
     found = [e for e in selection.choose(replace(problem, flights=())) if e in likeliest]
     if found:
         refined = {e: _refine(f, likeliest[e], columns[e]) for e in found}
-        known = {**known, **{e: _sharpen(f, step, columns[e]) for e, step in refined.items()}}
+        known = {**known, **{e: _sharpen(f, sample, columns[e]) for e, sample in refined.items()}}
         return add_steps(_estimate_again(f, known), known)
     instants = _list_instants(f, {**known, **likeliest})
     prepared = tuple(x.with_steps(instants) for x in f.prepared)
@@ -71,100 +61,76 @@ def add_steps(
     return tests, replace(begun, prepared=prepared), instants
 
 
-def _list_instants(f: Fitted, steps: Mapping[str, Step]) -> dict[str, float]:
+def _list_instants(f: Fitted, steps: Steps) -> dict[str, float]:
     """By effect, s."""
-    time = f.observations[0].record.time
-    return {e: float(time[s.sample]) for e, s in steps.items()}
+    return {e: float(f.observations[0].record.time[sample]) for e, sample in steps.items()}
 
 
-def _begin_at(f: Fitted, steps: Mapping[str, Step]) -> Fitted:
+def _begin_at(f: Fitted, steps: Steps) -> Fitted:
     """The fit with the columns of steps from these samples on, made anew and put through the filter."""
     prepared = tuple(x.with_steps(_list_instants(f, steps)) for x in f.prepared)
     r_factors, sums = zip(*(whitening.factor_blocks(x) for x in prepared), strict=True)
     return replace(f, prepared=prepared, r_factors=r_factors, sums=sums)
 
 
-def _zero_before(f: Fitted, steps: Mapping[str, Step], columns: Columns) -> Fitted:
+def _zero_before(f: Fitted, steps: Steps, columns: Columns) -> Fitted:
     """The fit with R factors and sums in which the columns of steps are zero in the blocks of time before them."""
     sums = tuple(own.copy() for own in f.sums)
     r_factors = tuple(tuple(t.copy() for t in own) for own in f.r_factors)
-    for e, step in steps.items():
+    for e, sample in steps.items():
         places = [f.n_base + n for n, _ in columns[e]]
-        for block in np.flatnonzero(f.prepared[0].edges[:-1] < step.sample):
+        for block in np.flatnonzero(f.prepared[0].edges[:-1] < sample):
             for own, factors in zip(sums, r_factors, strict=True):
                 own[block, places] = 0.0
                 factors[block][:, places] = 0.0
     return replace(f, r_factors=r_factors, sums=sums)
 
 
-def _estimate_again(f: Fitted, steps: Mapping[str, Step]) -> Fitted:
+def _estimate_again(f: Fitted, steps: Steps) -> Fitted:
     """The fit by the noise that is left beside the columns of steps."""
     instants = _list_instants(f, steps)
     noise = [estimate_noise(replace(x.at, instants=instants), x.observation) for x in f.prepared]
     return fit(f.model, f.instrument, f.observations, noise, f.calibration.p)
 
 
-def _scan(f: Fitted, columns: Columns, beside: Sequence[int]) -> dict[str, Step]:
-    """The most likely edge of a block of time for each step: alone, unless it explains far more ``beside`` what is chosen first."""
-    edges = [int(k) for k in f.prepared[0].edges[1:-1]]
-    best: dict[str, tuple[float, Step]] = {}
-    for given in ((), tuple(beside)) if beside else ((),):
-        found = _find_best_edges(f, f.r_factors, edges, given, columns)
-        for e, (edge, test) in found.items():
-            if e not in best or test.log_p < best[e][0] - BESIDE:
-                best[e] = test.log_p, Step(edge, given)
-    return {e: step for e, (_, step) in best.items()}
-
-
 def _find_best_edges(
-    f: Fitted,
-    r_factors: Sequence[Sequence[Array]],
-    edges: Sequence[int],
-    given: Sequence[int],
-    columns: Columns,
-) -> dict[str, tuple[int, Test]]:
-    """For each step the edge between two segments of time, each with an R factor of every output, from which on it explains most.
-
-    ``given``: places of other effects' columns among the candidates.
-    """
-    n_base = f.n_base
-    own = [c for each in columns.values() for c in each]
-    k, m = n_base + len(given), len(own)
-    others = [*(n_base + n for n in given), *(n_base + n for n, _ in own), -1]
-    picked = [fold([pick_columns(t, n_base, others) for t in each]) for each in zip(*r_factors, strict=True)]
+    f: Fitted, r_factors: Sequence[Sequence[Array]], edges: Sequence[int], columns: Columns
+) -> dict[str, int]:
+    """For each step the edge between two segments of time, each with an R factor of every output, from which on it explains most."""
+    k, own = f.n_base, [c for each in columns.values() for c in each]
+    m, others = len(own), [*(k + n for n, _ in own), -1]
+    picked = [fold([pick_columns(t, k, others) for t in each]) for each in zip(*r_factors, strict=True)]
     # The segments after an edge count with the steps' columns, those before it without; the prior in them.
-    sheet = make_prior(range(n_base), k + m + 1, f.to_nominal)
-    after: list[Array] = [np.pad(sheet, ((0, k + m + 1 - n_base), (0, 0)))]
+    after: list[Array] = [np.pad(make_prior(range(k), k + m + 1, f.to_nominal), ((0, m + 1), (0, 0)))]
     for t in reversed(picked[1:]):
         after.append(fold([after[-1], t]))
     before = np.zeros((k + m + 1, k + m + 1))
     place = count()
     named = {e: [(next(place), c) for _, c in each] for e, each in columns.items()}
     floor = np.full(m + 1, likelihood_ratio.TESTABLE)
-    best: dict[str, tuple[int, Test]] = {}
+    best: dict[str, tuple[float, int]] = {}
     for n, edge in enumerate(edges):
         off = picked[n].copy()
         off[:, k : k + m] = 0.0
         before = fold([before, off])
         P = likelihood_ratio.project(fold([before, after[len(edges) - n]]), k)
         for e, each in named.items():
-            test = likelihood_ratio.test(P, each, floor, float(np.log(2 * BLOCKS)))
-            if e not in best or test.log_p < best[e][1].log_p:
-                best[e] = edge, test
-    return best
+            log_p = likelihood_ratio.test(P, each, floor, float(np.log(2 * BLOCKS))).log_p
+            if e not in best or log_p < best[e][0]:
+                best[e] = log_p, edge
+    return {e: edge for e, (_, edge) in best.items()}
 
 
 FINE = 192
 """Segments into which the neighbourhood of a step is divided in each round that looks for its instant."""
 
 
-def _refine(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> Step:
+def _refine(f: Fitted, sample: int, columns: Sequence[tuple[int, Column]]) -> int:
     """Move the instant of a step to the sample where it explains most, of all outputs of the flight."""
-    length, sample = len(f.observations[0].record.time), step.sample
+    length = len(f.observations[0].record.time)
     reach = max(1, length // BLOCKS)
-    places = [*range(f.n_base), *(f.n_base + n for n in step.given), *(f.n_base + n for n, _ in columns)]
-    given = range(len(step.given))
-    moved = {"": [(len(given) + n, c) for n, (_, c) in enumerate(columns)]}
+    places = [*range(f.n_base), *(f.n_base + n for n, _ in columns)]
+    moved = {"": [*enumerate(c for _, c in columns)]}
     flights = [x.lean(places) for x in f.prepared]
     while reach > 1:
         low, high = _limit_search(sample, reach, length)
@@ -181,9 +147,9 @@ def _refine(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> Ste
             for parts in x.each(partial(cut, own=own)):
                 for k, T in parts:
                     r_factors[k] = join([r_factors[k], T])
-        sample, _ = _find_best_edges(f, [r_factors], edges.tolist(), given, moved)[""]
+        sample = _find_best_edges(f, [r_factors], edges.tolist(), moved)[""]
         reach = int(np.max(np.diff(edges), initial=1))
-    return replace(step, sample=sample)
+    return sample
 
 
 def _limit_search(sample: int, reach: int, length: int) -> tuple[int, int]:
@@ -196,16 +162,16 @@ POINTS = 16
 """Instants on either side that are tried in each round that looks for the sample."""
 
 
-def _sharpen(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> Step:
+def _sharpen(f: Fitted, sample: int, columns: Sequence[tuple[int, Column]]) -> int:
     """Move the first sample of a step to where its own columns, put through the filter from there on, explain most.
 
     Only of a flight of one segment.
     """
     length = len(f.observations[0].record.time)
     if length > ROWS:
-        return step
+        return sample
     everything = [t for own in f.r_factors for t in own]
-    projector = whitening.make_projector(everything, f.n_base, step.given)
+    projector = whitening.make_projector(everything, f.n_base, ())
     places = [f.n_base + n for n, _ in columns]
     pieces = [p for x in f.prepared for p in x.each(lambda p: p)]
     bases = [projector.basis(p) for p in pieces]
@@ -224,7 +190,7 @@ def _sharpen(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> St
         U, s, _ = np.linalg.svd(X[seen].T, full_matrices=False)
         return float(np.sum((U[:, s > 1e-6 * s[0]].T @ y) ** 2))
 
-    sample, reach = step.sample, max(1, length // BLOCKS)
+    reach = max(1, length // BLOCKS)
     # the filter of a noise that has the step in it makes a spike of its edge, which a coarse search passes by
     low, high = _limit_search(sample, POINTS, length)
     known = {at: explained(at) for at in range(low, high + 1)}
@@ -235,7 +201,7 @@ def _sharpen(f: Fitted, step: Step, columns: Sequence[tuple[int, Column]]) -> St
             known.setdefault(at, explained(at))
         sample = max(known, key=lambda at: (known[at], -at))
         if spacing == 1:
-            return replace(step, sample=sample)
+            return sample
         reach = spacing
 
 
