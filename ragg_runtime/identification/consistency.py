@@ -140,15 +140,15 @@ KNOWN = 200
 
 def find_change(f: Fitted) -> ChangePoint | None:
     """Follow the model through its flights; ``None`` where it holds to the end, or never held."""
-    blocks = list(_blocks(f))
+    blocks = list(_compute_innovations(f))
     limit = np.log(max(1, len(blocks)) / false_alarms.CHANGE)
     log_m, since = 0.0, 0
-    for n, b in enumerate(blocks):
+    for n, (_, *innovations) in enumerate(blocks):
         if log_m <= 0.0:
             since = n
-        log_m = max(0.0, log_m) + log_e(b.base, b.further)
+        log_m = max(0.0, log_m) + log_e(*innovations)
         if log_m > limit and since:
-            return ChangePoint(blocks[since].flight, blocks[since].start)
+            return blocks[since][0]
     return None
 
 
@@ -165,17 +165,8 @@ def log_e(*parts: Array) -> float:
     return float(logsumexp(logs) - np.log(len(logs))) if logs else 0.0
 
 
-@dataclass(frozen=True)
-class _TimeBlock:
-    """Innovations of a block of time, from ``start`` on, s: along the base columns, and along candidates beyond them."""
-
-    flight: str
-    start: float
-    base: Array
-    further: Array
-
-
-def _blocks(f: Fitted) -> Iterator[_TimeBlock]:
+def _compute_innovations(f: Fitted) -> Iterator[tuple[ChangePoint, Array, Array]]:
+    """Where each block of time begins, and its innovations along the base columns, and along candidates beyond them."""
     n = f.n_base
     nothing = np.zeros((n + 1, n + 1))
     known = add_prior(nothing, range(n), f.to_nominal / WIDE)
@@ -189,13 +180,13 @@ def _blocks(f: Fitted) -> Iterator[_TimeBlock]:
             free = max(0, samples - T.shape[1])
             level = float(np.sqrt((T[-1, -1] ** 2 + KNOWN) / (free + KNOWN)))
             own = np.column_stack([T[:n, :n], T[:n, -1]]) / level
-            z = _compute_innovations(known, own)
+            base = _standardise(known, own)
             known = compute_r_factor(np.vstack([known, own]).T)
             further = T[n:-1, -1][np.diag(T)[n:-1] != 0.0] / level
-            yield _TimeBlock(x.observation.name, float(r.time[first]), base=z, further=further)
+            yield ChangePoint(x.observation.name, float(r.time[first])), base, further
 
 
-def _compute_innovations(known: Array, own: Array) -> Array:
+def _standardise(known: Array, own: Array) -> Array:
     """(n,): what a block's rotated data differ by from what is known, standardised by both uncertainties."""
     n = own.shape[1] - 1
     S = known[:n, :n]
