@@ -15,22 +15,13 @@ from ragg_runtime.base.progress import one_thread
 from ragg_runtime.estimation.fitted import Fitted, fit, measure_noise_floor, release_held
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.thinning import thin_observations
-from ragg_runtime.identification import next_motion
+from ragg_runtime.identification import next_motion, ranking
 from ragg_runtime.identification.claims import Regression, add_shift
 from ragg_runtime.identification.consistency import are_far_apart, find_change, find_disagreement
 from ragg_runtime.identification.formula import propose_formulas
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.parameters import Estimates
-from ragg_runtime.identification.ranking import (
-    CERTAIN,
-    Ranked,
-    add_probability,
-    list_detectable,
-    list_not_testable,
-    rank_added,
-    rank_effects,
-    weigh_effects,
-)
+from ragg_runtime.identification.ranking import Ranked, rank_effects
 from ragg_runtime.identification.result import (
     ChangePoint,
     Diagnosis,
@@ -39,7 +30,7 @@ from ragg_runtime.identification.result import (
     group_findings,
     name_verdict,
 )
-from ragg_runtime.identification.search import Evidence, Outcome, search
+from ragg_runtime.identification.search import Evidence, search
 from ragg_runtime.identification.strong import Extend, Stage
 from ragg_runtime.identification.verdict import Conclusion
 from ragg_runtime.instrument.instrument import Instrument
@@ -88,9 +79,9 @@ def diagnose_fitted(
         left = propose_formulas(*beside, found.left)
         if found.remains or left.significant:
             found = replace(found, verdict=name_verdict(claimed=bool(found.claims), remains=True), left=left)
-    certain = [Ranked.without_columns(e, CERTAIN, first.scored.whole) for e in output]
-    ranking = complete_ranking([*rank_effects(first), *certain], evidence, found)
-    return _make_diagnosis(evidence, found, ranking, _choose_noise(f, found.outcome.target), apart, limits)
+    certain = [Ranked.without_columns(e, ranking.CERTAIN, first.scored.whole) for e in output]
+    ranked = complete_ranking([*rank_effects(first), *certain], evidence, found)
+    return _make_diagnosis(evidence, found, ranked, _choose_noise(f, found.outcome.target), apart, limits)
 
 
 SAME = 1.05
@@ -106,7 +97,7 @@ def _choose_noise(f: Fitted, target: Fitted) -> Fitted:
 def _make_diagnosis(
     evidence: Evidence,
     found: Conclusion,
-    ranking: Sequence[Ranked],
+    ranked: Sequence[Ranked],
     noise: Fitted,
     apart: tuple[Disagreement, ...],
     limits: Mapping[str, float],
@@ -114,51 +105,48 @@ def _make_diagnosis(
     """What is reported; ``noise``: the fit of the noise floor, ``apart``: how flights disagree."""
     first, outcome, left = evidence.first, found.outcome, found.left
     f, problem = first.fitted, first.problem
-    credence = weigh_effects(evidence.last.problem, evidence.steps).within(found.share)
+    credence = ranking.weigh_effects(evidence.last.problem, evidence.steps).within(found.share)
     chosen = [*dict.fromkeys([*found.claims, *outcome.effects])]
     place = {e: n for n, e in enumerate(chosen)}
-    rows = (add_probability(r, credence, problem.candidates) for r in ranking)
-    pairs = next_motion.list_pairs(evidence.alternatives())
+    # of what the outcome leaves above the noise generic terms explain so much
+    above = sum(s.square for s in left.searches) - outcome.target.calibration.rows
+    by_terms = sum(s.chi2 for s in left.searches)
+    rows = (ranking.add_probability(r, credence, problem.candidates) for r in ranked)
+    groups = evidence.alternatives().items()
+    pairs = [(e, r) for e, alternatives in groups for r in alternatives[: next_motion.ALTERNATIVES]]
     return Diagnosis(
         verdict=found.verdict,
         fitted=f,
         ranking=tuple(sorted(rows, key=lambda r: (place.get(r.effect, len(place)), r.log_p, r.effect))),
         found=found.claims,
-        not_testable=tuple(list_not_testable(f, problem)),
-        remainder=left if found.remains else left.without_terms(),
-        remainder_share=_share(outcome, left) if found.remains else 0.0,
+        not_testable=tuple(ranking.list_not_testable(f, problem)),
+        remainder=left if found.remains else Remainder(tuple(replace(s, terms=()) for s in left.searches)),
+        remainder_share=min(1.0, by_terms / max(above, by_terms, 1.0)) if found.remains else 0.0,
         before=first.scored.whole,
         noise=noise,
-        sizes=tuple(list_detectable(f, problem)),
+        sizes=tuple(ranking.list_detectable(f, problem)),
         outcome=outcome,
         next_motion=tuple(next_motion.propose_motions(f, problem, pairs, limits)),
         reasons=tuple(found.reasons(describe_disagreement(apart), spent=evidence.spent)),
         disagree=apart,
         tests=round(problem.effective_count, 3),
-        groups=group_findings(found.claims, ranking, found.steady, found.shared),
+        groups=group_findings(found.claims, ranked, found.steady, found.shared),
         credible_set=credence.credible,
         change=_find_change(outcome.target, evidence.instants, found.claims),
     )
 
 
-def _share(o: Outcome, left: Remainder) -> float:
-    """Of what the outcome leaves above the noise the share that generic terms explain."""
-    above = sum(s.square for s in left.searches) - o.target.calibration.rows
-    by_terms = sum(s.chi2 for s in left.searches)
-    return min(1.0, by_terms / max(above, by_terms, 1.0))
-
-
-def complete_ranking(ranking: Sequence[Ranked], evidence: Evidence, found: Conclusion) -> list[Ranked]:
+def complete_ranking(ranked: Sequence[Ranked], evidence: Evidence, found: Conclusion) -> list[Ranked]:
     """The effects of the first stage's ranking, those that were derived into the model by what it leaves without and with them, and the
     random ones.
     """
-    o, rows = found.outcome, [*ranking]
+    o, rows = found.outcome, [*ranked]
     if not found.remains:
         rows += [Ranked.without_columns(e, t, evidence.first.scored.whole) for e, t in o.random.items()]
     if evidence.steps:
         rows += rank_effects(evidence.last, only=evidence.last.chosen)
         free = release_held(o.target)
-        rows += [rank_added(t, free) for t in evidence.steps]
+        rows += [ranking.rank_added(t, free) for t in evidence.steps]
     rows = [*{r.effect: r for r in rows}.values()]
     # beside a rival only what the recorder did is claimed, which has no columns
     return rows if found.verdict != "partly-explained" or found.rival else _restate_claims(rows, found)

@@ -310,11 +310,6 @@ def _lower_block(rows: Array, first: int) -> Array:
     return np.asarray(np.linalg.qr(rows, mode="r"))[first:, first:]
 
 
-def list_pairs(groups: Mapping[str, Sequence[str]]) -> list[tuple[str, str]]:
-    """(effect, rival) of groups that the record cannot split."""
-    return [(e, r) for e, alternatives in groups.items() for r in alternatives[:ALTERNATIVES]]
-
-
 @dataclass(frozen=True)
 class Alternatives:
     """Pairs (effect, rival) that flights do not separate, and of each what is known of the effect and which columns may absorb it."""

@@ -196,20 +196,12 @@ class Scores:
 
 
 def make_dictionary(x: PreparedFlight) -> Dictionary:
-    """Of a flight, with the output that the model predicts."""
-    return Dictionary(x.observation.record, _predict_output(x))
-
-
-def _predict_output(x: PreparedFlight) -> Array | None:
-    """(N,), V: G_out as the model has it, which holds none of the record's noise; ``None`` of several outputs, or of channels."""
+    """Of a flight, with the output that the model predicts, which holds none of the record's noise, if it is one and not channels."""
     o = x.observation
     if o.recorded.demodulated or len(o.series) != 1:
-        return None
-    found = np.zeros(len(o.record.time))
-    for rows in o.segments:
-        part = o.part(rows)
-        found[rows] = predict_observed(x.at.model, part, x.at.p)[0]
-    return found
+        return Dictionary(o.record)
+    parts = (predict_observed(x.at.model, o.part(rows), x.at.p)[0] for rows in o.segments)
+    return Dictionary(o.record, np.concatenate([*parts]))
 
 
 def choose(s: Scores) -> Omnibus:
@@ -364,9 +356,6 @@ class Remainder:
     @property
     def significant(self) -> bool:
         return bool(self.log_p < np.log(FAMILY))
-
-    def without_terms(self) -> Remainder:
-        return Remainder(tuple(replace(s, terms=()) for s in self.searches))
 
 
 def search_residual(f: Fitted, only: int | None = None) -> Remainder:

@@ -259,11 +259,6 @@ def weigh_effects(problem: ProjectedProblem, steps: Sequence[AddedEffect]) -> Pr
         for option, (s, weight) in product(options, weights.items()):
             more[s | {option}] += weight
         weights = more
-    return _list_probabilities(weights)
-
-
-def _list_probabilities(weights: Weights) -> Probabilities:
-    """Of each effect, and of the sets."""
     total = sum(weights.values())
     of = {e: sum(w for s, w in weights.items() if e in s) / total for e in sorted(set().union(*weights))}
     sets = sorted((-w / total, tuple(sorted(s))) for s, w in weights.items())

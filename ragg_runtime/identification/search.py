@@ -200,15 +200,12 @@ def _list_given(last: Stage, chosen: Iterable[str]) -> list[int]:
 
 
 def search(first: Stage, extend: Extend | None, *, apart: bool) -> Evidence:
-    """Search forward; nothing is searched in flights that are kept ``apart``, nor in an output of which the model explains nothing."""
+    """Search forward, and fit what is chosen in the model, without effects that then have an impossible size.
+
+    Nothing is searched in flights that are kept ``apart``, nor in an output of which the model explains nothing.
+    """
     idle = apart or measure_explained(first.fitted, first.scored).complaint is not None
     steps, last, spent = ([], first.without_choice(), False) if idle else strong.select_strong(first, extend)
-    last, outcome = confirm_choice(steps, last, extend)
-    return Evidence(first, steps, last, outcome, extend, spent)
-
-
-def confirm_choice(steps: Sequence[AddedEffect], last: Stage, extend: Extend | None) -> tuple[Stage, Outcome]:
-    """The chosen effects fitted in the model; and the last stage without those that then have an impossible size."""
     final = _derive_chosen(last, extend)
     while final is not None and (wrong := strong.find_impossible(final, last.chosen)):
         kept = {e: c for e, c in last.problem.candidates.items() if e not in wrong}
@@ -216,7 +213,8 @@ def confirm_choice(steps: Sequence[AddedEffect], last: Stage, extend: Extend | N
         last = replace(last, problem=problem, chosen=selection.choose(problem))
         final = _derive_chosen(last, extend)
     effects = [*(t.effect for t in steps), *last.chosen]
-    return last, Outcome.of(final or last.fitted, effects, () if final else _list_given(last, last.chosen))
+    outcome = Outcome.of(final or last.fitted, effects, () if final else _list_given(last, last.chosen))
+    return Evidence(first, steps, last, outcome, extend, spent)
 
 
 def _derive_chosen(last: Stage, extend: Extend | None) -> Fitted | None:

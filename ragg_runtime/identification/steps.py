@@ -44,7 +44,10 @@ def add_steps(
     if len(f.flights) != 1 or not columns:
         return make_problem(f), f, {}
     known = {e: _sharpen(f, sample, columns[e]) for e, sample in known.items()}
-    f = _begin_at(f, known) if known else f
+    if known:  # made anew from these samples on, and put through the filter
+        prepared = tuple(x.with_steps(_list_instants(f, known)) for x in f.prepared)
+        r_factors, sums = zip(*(whitening.factor_blocks(x) for x in prepared), strict=True)
+        f = replace(f, prepared=prepared, r_factors=r_factors, sums=sums)
     edges = [int(k) for k in f.prepared[0].edges[1:-1]]
     likeliest = _find_best_edges(f, f.r_factors, edges, {e: c for e, c in columns.items() if e not in known})
     begun = _zero_before(f, likeliest, columns)
@@ -54,7 +57,9 @@ def add_steps(
     if found:
         refined = {e: _refine(f, likeliest[e], columns[e]) for e in found}
         known = {**known, **{e: _sharpen(f, sample, columns[e]) for e, sample in refined.items()}}
-        return add_steps(_estimate_again(f, known), known)
+        instants = _list_instants(f, known)
+        noise = [estimate_noise(replace(x.at, instants=instants), x.observation) for x in f.prepared]
+        return add_steps(fit(f.model, f.instrument, f.observations, noise, f.calibration.p), known)
     instants = _list_instants(f, {**known, **likeliest})
     prepared = tuple(x.with_steps(instants) for x in f.prepared)
     tests = replace(problem, flights=prepared if problem.flights else ())
@@ -64,13 +69,6 @@ def add_steps(
 def _list_instants(f: Fitted, steps: Steps) -> dict[str, float]:
     """By effect, s."""
     return {e: float(f.observations[0].record.time[sample]) for e, sample in steps.items()}
-
-
-def _begin_at(f: Fitted, steps: Steps) -> Fitted:
-    """The fit with the columns of steps from these samples on, made anew and put through the filter."""
-    prepared = tuple(x.with_steps(_list_instants(f, steps)) for x in f.prepared)
-    r_factors, sums = zip(*(whitening.factor_blocks(x) for x in prepared), strict=True)
-    return replace(f, prepared=prepared, r_factors=r_factors, sums=sums)
 
 
 def _zero_before(f: Fitted, steps: Steps, columns: Columns) -> Fitted:
@@ -84,13 +82,6 @@ def _zero_before(f: Fitted, steps: Steps, columns: Columns) -> Fitted:
                 own[block, places] = 0.0
                 factors[block][:, places] = 0.0
     return replace(f, r_factors=r_factors, sums=sums)
-
-
-def _estimate_again(f: Fitted, steps: Steps) -> Fitted:
-    """The fit by the noise that is left beside the columns of steps."""
-    instants = _list_instants(f, steps)
-    noise = [estimate_noise(replace(x.at, instants=instants), x.observation) for x in f.prepared]
-    return fit(f.model, f.instrument, f.observations, noise, f.calibration.p)
 
 
 def _find_best_edges(
