@@ -29,19 +29,13 @@ from ragg_runtime.identification.parameters import list_bounded_columns
 
 Array = NDArray[np.float64]
 
+# times the chi-square that claims beside a remainder must explain: all of them, of the best single generic term, as the difference of
+# two explanations grows with their strength and their ratio does not; each of them, of the best generic term of the remainder
 MORE = 1.5
-"""Times the chi-square that claims beside a remainder must explain: all of them, of the best single generic term, as the difference of
-two explanations grows with their strength and their ratio does not; each of them, of the best generic term of the remainder.
-"""
-
+# posterior variance of a direction of the coefficients, in that of the prior, below which the record tells it
 SEEN = 1.0 / (1.0 + TESTABLE**2)
-"""Posterior variance of a direction of the coefficients, in that of the prior, below which the record tells it."""
-
-LEVERAGE = 1e-3
-"""Least share of a block's rows that its own leverage may leave (CR2)."""
-
-SCATTER = 0.01
-"""Probability with which the scores of a correct noise model seem to scatter too much."""
+LEVERAGE = 1e-3  # least share of a block's rows that its own leverage may leave (CR2)
+SCATTER = 0.01  # probability with which the scores of a correct noise model seem to scatter too much
 
 
 @dataclass(frozen=True)
@@ -218,8 +212,8 @@ def weigh_generic_terms(
     return found[best] - float(np.log(len(bases))), bases[best]
 
 
+# share by which second orders, and the filter that generic terms pass, may change what an explanation explains
 SECOND_ORDER = 0.05
-"""Share by which second orders, and the filter that generic terms pass, may change what an explanation explains."""
 
 
 def _weigh_terms(s: Omnibus, claimed: float, most: int, spread: float) -> list[float]:

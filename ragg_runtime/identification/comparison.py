@@ -42,10 +42,9 @@ from ragg_runtime.wording.sections import render_notebook
 Array = NDArray[np.float64]
 
 
+# error over the noise from which the residual is not down to noise, whatever the tests of what is left say: slow noise may be 1.4
+# times as loud as estimated
 LOUD = 2.0
-"""Error over the noise from which the residual is not down to noise, whatever the tests of what is left say: slow noise may be
-1.4 times as loud as estimated.
-"""
 
 
 @dataclass(frozen=True, repr=False)

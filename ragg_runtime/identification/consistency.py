@@ -128,14 +128,11 @@ def _make_own_problem(f: Fitted, own: Sequence[int]) -> ProjectedProblem:
 
 # --- from block to block of time
 
+# prior standard deviation of the parameters before the first block, in those of the sheet: that the sheet was wrong is no change
 WIDE = 100.0
-"""Prior standard deviation of the parameters before the first block, in those of the sheet: that the sheet was wrong is no change."""
-
+# variance that a change adds to innovations, in that of the noise: averaged over
 SIZES = np.logspace(-1.0, 8.0, 19)
-"""Variance that a change adds to innovations, in that of the noise: averaged over."""
-
-KNOWN = 200
-"""Samples that the noise of the whole flight counts as where a block tells its own level."""
+KNOWN = 200  # samples that the noise of the whole flight counts as where a block tells its own level
 
 
 def find_change(f: Fitted) -> ChangePoint | None:

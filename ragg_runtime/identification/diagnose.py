@@ -84,8 +84,8 @@ def diagnose_fitted(
     return _make_diagnosis(evidence, found, ranked, _choose_noise(f, found.outcome.target), apart, limits)
 
 
+# factor up to which two estimates of a noise floor are one number: of slow noise it is hardly known better
 SAME = 1.05
-"""Factor up to which two estimates of a noise floor are one number: of slow noise it is hardly known better."""
 
 
 def _choose_noise(f: Fitted, target: Fitted) -> Fitted:

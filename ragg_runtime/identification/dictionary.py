@@ -32,44 +32,30 @@ from ragg_runtime.wording import numbers
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
-FORCES = ("f_i", "f_o")
-"""Forces that turn with the disc."""
+FORCES = ("f_i", "f_o")  # forces that turn with the disc
 
 NOTHING: Mapping[str, float] = MappingProxyType({})
 
+# the output as the model predicts it: what a converter or an amplifier bends, whatever it is made of
 OUTPUT = "G_out"
-"""The output as the model predicts it: what a converter or an amplifier bends, whatever it is made of."""
-
-HIGHEST = 4
-"""Highest multiple of the spin rate: what second-order terms of a rotating force reach (Eq. 17)."""
-
-HIGHEST_OF_ONE = 6
-"""The same of constants and single channels, which are few."""
+HIGHEST = 4  # highest multiple of the spin rate: what second-order terms of a rotating force reach (Eq. 17)
+HIGHEST_OF_ONE = 6  # the same of constants and single channels, which are few
 
 MOTION = tuple(f"{n}_{k}" for n in ("a", "omega", "omegadot") for k in "xyz")
 _CUBIC = tuple(f"{n}_{k}" for n in ("a", "omega") for k in "xyz")
 _RATES = tuple(f"{d}_{n}_{k}" for d, n in (("d", "a"), ("d2", "a"), ("d", "omegadot")) for k in "xyz")
 
+# what the first accelerometer feels along its input, output and (but for the sign) pendulous axis
 _FORCES = (*FORCES, "a_z")
-"""What the first accelerometer feels along its input, output and (but for the sign) pendulous axis."""
-
-CREEP = (1, 5, 20, 60)
-"""Time constants, s, of relaxations of channels."""
-
+CREEP = (1, 5, 20, 60)  # time constants, s, of relaxations of channels
+# the same of forces that turn with the disc, of which a slower one keeps little
 TURNING_CREEP = (0.1, 0.3, 1, 3, 10)
-"""The same of forces that turn with the disc, of which a slower one keeps little."""
-
+# the same of the sense of motion: play and friction give way over some way after it turns round
 FRICTION = (0.2, 0.5, 1)
-"""The same of the sense of motion: play and friction give way over some way after it turns round."""
-
-WARMTH = (5, 20, 60)
-"""The same of squares: what the power that a motion dissipates warms."""
-
-TOGETHER = 32
-"""Terms whose series are made at a time."""
-
+WARMTH = (5, 20, 60)  # the same of squares: what the power that a motion dissipates warms
+TOGETHER = 32  # terms whose series are made at a time
+# terms of the output itself
 OF_OUTPUT = ((OUTPUT, OUTPUT), (OUTPUT, OUTPUT, OUTPUT), (f"abs({OUTPUT})",), (f"sign({OUTPUT})",))
-"""Terms of the output itself."""
 
 
 @dataclass(frozen=True)
@@ -273,9 +259,9 @@ def make_carrier(r: Record, harmonic: str) -> Array:
 # --- whitened: the directions along which a residual is asked. Any tells a standard normal deviate from white noise; the
 # whitened series of a term is the one that finds the term best.
 
+# most taps of the filter that terms are whitened with: a direction need not be the best one for its score to be a standard normal
+# deviate, and slower memory than this buys little
 MEMORY = 16384
-"""Most taps of the filter that terms are whitened with: a direction need not be the best one for its
-score to be a standard normal deviate, and slower memory than this buys little."""
 
 
 def whiten_terms(
@@ -358,8 +344,7 @@ def begins_at_zero(s: Series, centre: Mapping[str, float]) -> bool:
     return base in FORCES or (isinstance(s, Function) and base not in centre)
 
 
-FORGOTTEN = 20.0
-"""Time constants after which a relaxation no longer knows where it began: e^-20 is 2e-9."""
+FORGOTTEN = 20.0  # time constants after which a relaxation no longer knows where it began: e^-20 is 2e-9
 
 
 def relax(name: str, r: Record, rows: slice, centre: Mapping[str, float] = NOTHING) -> Array:

@@ -43,14 +43,11 @@ from ragg_runtime.signals.fir import filter_columns
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
+# products that are scored exactly: of all, and of each stage and harmonic, as lengths of the fast ones are rough
 SHORTLIST, OF_EACH = 200, 8
-"""Products that are scored exactly: of all, and of each stage and harmonic, as lengths of the fast ones are rough."""
-
+# time constants, s, of products that relax: within a factor of 2.2 of any from 0.5 to 45 s
 MEMORIES = (1, 5, 20)
-"""Time constants, s, of products that relax: within a factor of 2.2 of any from 0.5 to 45 s."""
-
-FINE = 4
-"""Means in the shortest of them, at least, by which these are screened."""
+FINE = 4  # means in the shortest of them, at least, by which these are screened
 
 ONE = Term("const", ())
 

@@ -16,16 +16,15 @@ from ragg_runtime.estimation.whitening import Piece, PreparedFlight
 
 Array = NDArray[np.float64]
 
+# whitened norm, after projection, of a parameter of one scale (ten times plausible) below which it is not testable: at 0.3 a 3-sigma
+# effect would be a hundred times the plausible size
 TESTABLE = 0.3
-"""Whitened norm, after projection, of a parameter of one scale (ten times plausible) below which it is not
-testable: at 0.3 a 3-sigma effect would be a hundred times the plausible size."""
-
+# relative size below which what is left of a column after projection is rounding and truncation
 COLLINEAR = 1e-6
-"""Relative size below which what is left of a column after projection is rounding and truncation."""
 
 
+# prior variance of an effect over that of the noise, g: from what hides in the noise to 1e4 times its standard deviation
 STRENGTHS = np.logspace(0.0, 8.0, 17)
-"""Prior variance of an effect over that of the noise, g: from what hides in the noise to 1e4 times its standard deviation."""
 
 _SHRINK, _COST = 0.5 * STRENGTHS / (1.0 + STRENGTHS), 0.5 * np.log1p(STRENGTHS)
 
@@ -74,8 +73,7 @@ def project(T: Array, onto: int) -> Array:
     return T[onto:, onto:]
 
 
-WEAKEST = 0.3
-"""Share of the floor of columns below which a direction of several is not tested."""
+WEAKEST = 0.3  # share of the floor of columns below which a direction of several is not tested
 
 
 def find_basis(P: Array, columns: Sequence[int], floor: Array, weakest: float = WEAKEST) -> Array:
@@ -153,8 +151,8 @@ def test(
     )
 
 
+# records of noise that tell how many independent tests the catalogue is: at a level of 0.03 thirty of them err, a fifth either way
 DRAWS = 1000
-"""Records of noise that tell how many independent tests the catalogue is: at a level of 0.03 thirty of them err, a fifth either way."""
 
 
 def estimate_effective_number(effects: Sequence[Sequence[Way]], level: float) -> float:
@@ -206,8 +204,7 @@ def test_variance(gram: Array) -> Test:
 # first-order correction). It is known from as many samples as carry the score (F. Satterthwaite, Biometrics 2, 1946): the test then
 # follows Fisher's F, as one of a variance that was estimated.
 
-DIRECTIONS = 1e-7
-"""Relative size below which a direction of the tested columns is rounding."""
+DIRECTIONS = 1e-7  # relative size below which a direction of the tested columns is rounding
 
 
 @dataclass(frozen=True)

@@ -22,14 +22,14 @@ from ragg_runtime.wording.numbers import join_names
 
 Array = NDArray[np.float64]
 
+# Chi-square by which a line must be off the multiple: what keeps step with the disc is taken for the disc's, and seems as far off it
+# in one of a hundred (one degree of freedom)
 SLIP = 6.6
-"""Chi-square by which a line must be off the multiple: what keeps step with the disc is taken for the disc's, and seems as far
-off it in one of a hundred (one degree of freedom)."""
 
 
+# share of what an effect explains that a sinusoid at the very multiple must explain for it to be called a constant term; the rest is
+# its couplings to the motion, which a strong one shows
 CONSTANT = 0.99
-"""Share of what an effect explains that a sinusoid at the very multiple must explain for it to be called a constant term; the
-rest is its couplings to the motion, which a strong one shows."""
 
 
 @dataclass(frozen=True)
@@ -110,8 +110,8 @@ def find_line_rival(
     return None, tuple(steady)
 
 
+# effects, the chi-square that they explain of a fit, beside other candidate columns of it, and what would do as well
 Contested = tuple[tuple[str, ...], float, Fitted, Sequence[int], tuple[str, ...]]
-"""Effects, the chi-square that they explain of a fit, beside other candidate columns of it, and what would do as well."""
 
 
 def _list_contested(steps: Sequence[AddedEffect], last: Stage) -> Iterator[Contested]:
@@ -128,23 +128,18 @@ def _list_contested(steps: Sequence[AddedEffect], last: Stage) -> Iterator[Conte
         yield effects, chi2, last.fitted, beside, last.alternatives[effects[0]]
 
 
-MULTIPLES = (1, 2, 3, 4)
-"""Of the spin rate: those up to which the sensors' signatures reach."""
+MULTIPLES = (1, 2, 3, 4)  # of the spin rate: those up to which the sensors' signatures reach
 
+# widths of a line (one over the record's length) up to which one beside a multiple is sought; those farther off the search of the
+# spectrum sees
 REACH = 4.0
-"""Widths of a line (one over the record's length) up to which one beside a multiple is sought; those farther off the search of
-the spectrum sees."""
-
+# width between the frequencies tried first; about the best of them others follow, so much finer again
 STEP = 0.25
-"""Width between the frequencies tried first; about the best of them others follow, so much finer again."""
 
 FINER = 8
 
-TOGETHER = 11
-"""Frequencies whose waves are made at a time."""
-
-DISTINCT = 1e-6
-"""Share of a wave that must be left by what is fitted for it to have a direction of its own."""
+TOGETHER = 11  # frequencies whose waves are made at a time
+DISTINCT = 1e-6  # share of a wave that must be left by what is fitted for it to have a direction of its own
 
 
 @dataclass(frozen=True)

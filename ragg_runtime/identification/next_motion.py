@@ -28,58 +28,37 @@ from ragg_runtime.io.record import is_disc_angle
 
 Array = NDArray[np.float64]
 Json = dict[str, Any]
-Sinusoid = tuple[str, float, float, float]
-"""Axis, frequency, Hz, amplitude, SI, and phase, rad."""
-
+Sinusoid = tuple[str, float, float, float]  # axis, frequency, Hz, amplitude, SI, and phase, rad
+# frequencies that are tried, over the spin frequency
 RATIOS = (0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0)
-"""Frequencies that are tried, over the spin frequency."""
-
+# highest frequency of a motion over the rate of its record: the record must hold its rate of change as well
 HIGHEST = 0.2
-"""Highest frequency of a motion over the rate of its record: the record must hold its rate of change as well."""
-
+# factor by which a motion must separate two effects farther than a longer record of what there is already
 WORTHWHILE = 1.05
-"""Factor by which a motion must separate two effects farther than a longer record of what there is already."""
 
 AXES = ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z")
 
+# how far a body beside the instrument is moved, an effect of the model that has these channels; axes where a limit says so
 MASS = ("mass_x", "mass_y", "mass_z")
-"""How far a body beside the instrument is moved, an effect of the model that has these channels; axes where a limit says so."""
 
 UNITS = {"a": "m/s^2", "omega": "rad/s", "mass": "m", "jerk": "m/s^3", "alpha": "rad/s^2", "speed": "m/s"}
 
+# largest amplitudes, m/s^2 and rad/s: 50 mg and 500 deg/h, what a stabilised platform lets through
 LIMITS: Mapping[str, float] = {"a": 0.49, "omega": 2.4e-3}
-"""Largest amplitudes, m/s^2 and rad/s: 50 mg and 500 deg/h, what a stabilised platform lets through."""
-
+# the limit of the rate of change of each kind of motion; where it is not given there is none
 SLOPES = {"a": "jerk", "omega": "alpha", "mass": "speed"}
-"""The limit of the rate of change of each kind of motion; where it is not given there is none."""
-
-SIMULATED = 96.0
-"""Length of the motion that is computed while the best one is sought, s."""
-
-DURATION = 600.0
-"""Length of the motion that a diagnosis proposes, s; information grows with it."""
-
+SIMULATED = 96.0  # length of the motion that is computed while the best one is sought, s
+DURATION = 600.0  # length of the motion that a diagnosis proposes, s; information grows with it
+# most of a motion that is computed for what it promises, s; of a longer one uncertainties fall with the root of its length
 LONGEST = 1800.0
-"""Most of a motion that is computed for what it promises, s; of a longer one uncertainties fall with the root of its length."""
-
-SWEEPS = 2
-"""In which frequencies are exchanged; further ones change little."""
-
-AT_REST = 0.25
-"""What counts as the spin frequency of a disc that does not turn, Hz: the paper's."""
-
-APART = 3.0
-"""Standard deviations at which two effects count as distinguishable."""
-
-ALTERNATIVES = 3
-"""Most alternatives of an effect for which a motion is sought."""
-
+SWEEPS = 2  # in which frequencies are exchanged; further ones change little
+AT_REST = 0.25  # what counts as the spin frequency of a disc that does not turn, Hz: the paper's
+APART = 3.0  # standard deviations at which two effects count as distinguishable
+ALTERNATIVES = 3  # most alternatives of an effect for which a motion is sought
+# information of the flights about a direction, over that of the prior, from which it is determined: its standard deviation is halved
 DETERMINED = 3.0
-"""Information of the flights about a direction, over that of the prior, from which it is determined: its standard deviation is
-halved."""
-
+# prior variances of the coefficients that are tried, over the variance with which flights determine the best direction
 STRENGTHS = np.logspace(0.0, 12.0, 49)
-"""Prior variances of the coefficients that are tried, over the variance with which flights determine the best direction."""
 
 
 # --- motions -------------------------------------------------------------------------------------------

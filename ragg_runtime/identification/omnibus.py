@@ -34,23 +34,20 @@ from ragg_runtime.identification.time_varying import BlockScores, Periodogram
 Array = NDArray[np.float64]
 T = TypeVar("T")
 
+# probability with which anything at all may seem left of an effect-free record
 FAMILY = false_alarms.REMAINDER
-"""Probability with which anything at all may seem left of an effect-free record."""
-
+# how the tests divide it: steady terms, terms that come and go, lines in the spectrum
 SHARES = false_alarms.REMAINDER_SHARES
-"""How the tests divide it: steady terms, terms that come and go, lines in the spectrum."""
 
+# share of a term's square that must be left of it beside the base's columns for it to have a direction of its own: single precision
+# knows no less
 OWN = 1e-6
-"""Share of a term's square that must be left of it beside the base's columns for it to have a direction of its own: single
-precision knows no less."""
-
+# share of a term's square that must be left of it beside the terms taken before, for its score to count
 APART = 0.05
-"""Share of a term's square that must be left of it beside the terms taken before, for its score to count."""
 
 MOST_TERMS = 8
 
-SHORTLIST = 400
-"""Terms among which several are sought: those with the largest scores."""
+SHORTLIST = 400  # terms among which several are sought: those with the largest scores
 
 
 @dataclass(frozen=True)

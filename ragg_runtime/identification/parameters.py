@@ -15,20 +15,18 @@ from ragg_runtime.model.model import DerivedParameter, Model, name_values
 
 Array = NDArray[np.float64]
 
+# posterior over prior standard deviation below which a value is the record's own: the record then holds ten times the information of
+# the sheet (1/0.3^2 - 1)
 SEEN = 0.3
-"""Posterior over prior standard deviation below which a value is the record's own: the record then holds ten times
-the information of the sheet (1/0.3^2 - 1)."""
-
+# the same from which a value is the test sheet's, not the record's: the record adds less than a quarter
 UNSEEN = 0.9
-"""The same from which a value is the test sheet's, not the record's: the record adds less than a quarter."""
-
+# the paper's sums and differences over the four accelerometers
 PATTERNS: tuple[tuple[str, tuple[int, int, int, int]], ...] = (
     ("Sigma", (1, 1, 1, 1)),
     ("D1234", (1, 1, -1, -1)),
     ("D12", (1, -1, 0, 0)),
     ("D34", (0, 0, 1, -1)),
 )
-"""The paper's sums and differences over the four accelerometers."""
 
 
 @dataclass(frozen=True)
@@ -83,8 +81,8 @@ def list_patterns(layout: Layout) -> list[tuple[str, Array]]:
     return found
 
 
+# a name, a unit, the weights (n,), in that unit, of fitted columns in scales, and those of the accelerometers' values in it
 Combination = tuple[str, str, Array, tuple[float, ...]]
-"""A name, a unit, the weights (n,), in that unit, of fitted columns in scales, and those of the accelerometers' values in it."""
 
 
 def find_combinations(

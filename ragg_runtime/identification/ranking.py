@@ -142,8 +142,7 @@ def rank_added(t: AddedEffect, free: Fitted) -> Ranked:
     return row.with_estimates(stepped.select(t.effect), t.instant)
 
 
-CERTAIN = Test(log_p=-np.inf, chi2=np.inf, rank=1, which=(), log_b=np.inf)
-"""Of what the recorder did."""
+CERTAIN = Test(log_p=-np.inf, chi2=np.inf, rank=1, which=(), log_b=np.inf)  # of what the recorder did
 
 
 def list_not_testable(f: Fitted, problem: ProjectedProblem) -> list[NotTestable]:
@@ -159,8 +158,7 @@ def list_not_testable(f: Fitted, problem: ProjectedProblem) -> list[NotTestable]
     return [NotTestable(e.id, reason) for e in f.model.candidates if (reason := why(e)) is not None]
 
 
-WEAK = 0.5
-"""Share of a signature that the calibration leaves of one that is too weak, and not absorbed."""
+WEAK = 0.5  # share of a signature that the calibration leaves of one that is too weak, and not absorbed
 
 
 def _describe_absorption(f: Fitted, problem: ProjectedProblem, e: DerivedEffect) -> str:
@@ -220,14 +218,10 @@ def list_detectable(f: Fitted, problem: ProjectedProblem) -> list[Detectable]:
 # 2008), log B_S(g) = chi2_S / 2 * g / (1 + g) - k_S / 2 * log(1 + g), with chi2_S what its k_S coefficients explain. g is averaged over
 # eight decades; each of E effects is present with probability 1/E (J. Scott and J. Berger, Ann. Stat. 38, 2010).
 
-LARGEST = 3
-"""Most effects of a set."""
-
-HELD = 0.95
-"""Probability that the credible set holds together."""
-
+LARGEST = 3  # most effects of a set
+HELD = 0.95  # probability that the credible set holds together
+# added to the inner products of all orthonormal blocks but the first: effects that coincide count once
 RIDGE = 1e-9
-"""Added to the inner products of all orthonormal blocks but the first: effects that coincide count once."""
 
 
 @dataclass(frozen=True)
@@ -246,8 +240,7 @@ class Probabilities:
         return Probabilities({e: p * share for e, p in self.of.items()}, credible)
 
 
-Weights = Mapping[frozenset[str], float]
-"""How probable sets of effects are, up to a common factor."""
+Weights = Mapping[frozenset[str], float]  # how probable sets of effects are, up to a common factor
 
 
 def weigh_effects(problem: ProjectedProblem, steps: Sequence[AddedEffect]) -> Probabilities:

@@ -20,26 +20,20 @@ from ragg_runtime.identification.likelihood_ratio import Test, weigh
 
 Array = NDArray[np.float64]
 
+# probability with which the whole catalogue of an effect-free record may raise a false alarm
 FAMILY = false_alarms.CATALOGUE
-"""Probability with which the whole catalogue of an effect-free record may raise a false alarm."""
-
+# the same for each effect beside the first: a chance companion would spoil what is found
 FURTHER = false_alarms.COMPANION
-"""The same for each effect beside the first: a chance companion would spoil what is found."""
-
-MOST = 4
-"""Most effects that are claimed at once."""
-
+MOST = 4  # most effects that are claimed at once
+# log evidence by which another effect must be better to take the place of a chosen one; ties do not go to and fro
 SWAPPED = 2.0
-"""Log evidence by which another effect must be better to take the place of a chosen one; ties do not go to and fro."""
 
+# log evidence (a factor of 1,100: 3 sigma beside 5) by which many coefficients may cost an effect that explains as much; with more it
+# is no alternative
 AS_SURE = 7.0
-"""Log evidence (a factor of 1,100: 3 sigma beside 5) by which many coefficients may cost an effect that explains as much; with more it
-is no alternative.
-"""
 
 
-Blocks = Mapping[str, tuple[int, ...]]
-"""Effects with the columns that each needs."""
+Blocks = Mapping[str, tuple[int, ...]]  # effects with the columns that each needs
 
 
 @dataclass(frozen=True)

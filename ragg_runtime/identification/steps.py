@@ -23,11 +23,9 @@ from ragg_runtime.identification.selection import ProjectedProblem, list_testabl
 
 Array = NDArray[np.float64]
 
+# the columns of every step, with their places among the candidates
 Columns = Mapping[str, Sequence[tuple[int, Column]]]
-"""The columns of every step, with their places among the candidates."""
-
-Steps = Mapping[str, int]
-"""The first sample after each step."""
+Steps = Mapping[str, int]  # the first sample after each step
 
 
 def add_steps(
@@ -112,8 +110,8 @@ def _find_best_edges(
     return {e: edge for e, (_, edge) in best.items()}
 
 
+# segments into which the neighbourhood of a step is divided in each round that looks for its instant
 FINE = 192
-"""Segments into which the neighbourhood of a step is divided in each round that looks for its instant."""
 
 
 def _refine(f: Fitted, sample: int, columns: Sequence[tuple[int, Column]]) -> int:
@@ -149,8 +147,7 @@ def _limit_search(sample: int, reach: int, length: int) -> tuple[int, int]:
     return max(block, sample - reach), min(length - block, sample + reach)
 
 
-POINTS = 16
-"""Instants on either side that are tried in each round that looks for the sample."""
+POINTS = 16  # instants on either side that are tried in each round that looks for the sample
 
 
 def _sharpen(f: Fitted, sample: int, columns: Sequence[tuple[int, Column]]) -> int:

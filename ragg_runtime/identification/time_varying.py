@@ -22,20 +22,13 @@ from ragg_runtime.estimation.whitening import Piece
 
 Array = NDArray[np.float64]
 
-PARTS = 4
-"""Intervals in a block of time."""
-
-WINDOWS = (1, 2, 4, 8, 16)
-"""Lengths of windows, in intervals; each is moved by half of it."""
-
-CYCLES = np.arange(1, 61) / 2
-"""Cycles of a swing in a flight. The shortest is three intervals long."""
-
+PARTS = 4  # intervals in a block of time
+WINDOWS = (1, 2, 4, 8, 16)  # lengths of windows, in intervals; each is moved by half of it
+CYCLES = np.arange(1, 61) / 2  # cycles of a swing in a flight. The shortest is three intervals long.
+# share of a term's information that must lie on either side of an instant for a jump there to be told from the whole
 ONE_SIDED = 0.01
-"""Share of a term's information that must lie on either side of an instant for a jump there to be told from the whole."""
-
+# determinant of a cosine and a sine of one period, over the product of their squares, below which they are one and the same
 ONE_PHASE = 0.01
-"""Determinant of a cosine and a sine of one period, over the product of their squares, below which they are one and the same."""
 
 QUESTIONS = 4
 
@@ -175,11 +168,8 @@ def _divide(a: Array, b: Array) -> Array:
 
 # --- a line in the spectrum of the whitened residual, against its level nearby
 
-NEIGHBOURS = 200
-"""Bins of the spectrum that tell the level about one of them."""
-
-LOWEST_BIN = 4
-"""First bin that may be a line: those below are bent by what a fit takes out."""
+NEIGHBOURS = 200  # bins of the spectrum that tell the level about one of them
+LOWEST_BIN = 4  # first bin that may be a line: those below are bent by what a fit takes out
 
 
 class Periodogram:

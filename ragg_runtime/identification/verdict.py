@@ -138,8 +138,7 @@ class Conclusion:
         return [*found, Reason(noise, kind="verdict")] if terms or not found else found
 
 
-OPEN = 0.1
-"""p-value from which an effect is named as one for which the record does not suffice."""
+OPEN = 0.1  # p-value from which an effect is named as one for which the record does not suffice
 
 
 def _without_lines(found: Evidence) -> tuple[Outcome, LineAlternative | None, tuple[Steady, ...]]:
