@@ -16,10 +16,10 @@ MOST = {
 
 
 def committed(*patterns: str) -> list[Path]:
-    said = subprocess.run(
+    listing = subprocess.run(
         ["git", "ls-files", "-z", *patterns], capture_output=True, text=True, check=True
     ).stdout
-    return [p for p in map(Path, said.split("\0")[:-1]) if p.is_file()]
+    return [p for p in map(Path, listing.split("\0")[:-1]) if p.is_file()]
 
 
 def lines(folders: str) -> int:

@@ -49,10 +49,10 @@ def measure(name: str) -> str:
     with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
         try:
             rows = pool.submit(run).result()
-            found = "\n".join(["| what | value | target |", "|---|---:|---|", *map(str, rows)])
+            text = "\n".join(["| what | value | target |", "|---|---:|---|", *map(str, rows)])
         except Exception as error:
-            found = f"Failed: {type(error).__name__}: {error}."
-    return f"### {name}\n\n{(run.__doc__ or name).splitlines()[0]}\n\n{found}\n"
+            text = f"Failed: {type(error).__name__}: {error}."
+    return f"### {name}\n\n{(run.__doc__ or name).splitlines()[0]}\n\n{text}\n"
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -69,10 +69,10 @@ def simulate(folder: Path, **options: Any) -> Flight:
 
 def measure(*arguments: str, python: tuple[str, ...] = ("-m", "ragg_runtime"), cache: str = "") -> float:
     """Processor time, s, of ``ragg`` with these arguments, whose modules are kept as bytecode, as an installed package has them."""
-    own = {k: x for k, x in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
-    own |= {"XDG_CACHE_HOME": cache} if cache else {}
+    environment = {k: x for k, x in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    environment |= {"XDG_CACHE_HOME": cache} if cache else {}
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run([sys.executable, *python, *arguments], check=True, capture_output=True, env=own)
+    subprocess.run([sys.executable, *python, *arguments], check=True, capture_output=True, env=environment)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 

@@ -33,14 +33,14 @@ def transfer(duration: float = 7200.0) -> dict[str, tuple[Complex, Complex]]:
     phi = 2 * np.pi * s.sheet.spin_frequency * t
     waves = 1e-9 * s.instrument.scale_factor * (g.real / 2 * np.sin(2 * phi) - g.imag * np.cos(2 * phi))
     more = replace(x, outputs={"G_out": x.outputs["G_out"] + waves})
-    found, both = {}, [prepare(load_packaged(), s.sheet, [y], "self").channels[0][0] for y in (more, x)]
+    pairs, both = {}, [prepare(load_packaged(), s.sheet, [y], "self").channels[0][0] for y in (more, x)]
     for name in DEMODULATORS:
         c, other = (replace(y, demodulator=find_demodulator(name, s.rate)) for y in both)
         difference = c.compensate().gradient - other.compensate().gradient
         ok = np.isfinite(difference.real)
         gains = np.linalg.lstsq(basis[ok], difference[ok] / SIZE, rcond=None)[0]
-        found[name] = gains, np.asarray(c.demodulator.response(1 / PERIODS))
-    return found
+        pairs[name] = gains, np.asarray(c.demodulator.response(1 / PERIODS))
+    return pairs
 
 
 def print_gains() -> None:

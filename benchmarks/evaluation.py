@@ -66,9 +66,9 @@ def aligned(x: Array) -> Array:
     """A contiguous copy that begins at a multiple of 64 bytes, as its rows do if their length allows it."""
     room = np.empty(x.size + 8)
     first = -(room.ctypes.data // 8) % 8
-    found = room[first : first + x.size].reshape(x.shape)
-    found[...] = x
-    return found
+    copy = room[first : first + x.size].reshape(x.shape)
+    copy[...] = x
+    return copy
 
 
 def instrument_and_motion(n: int) -> tuple[Array, Array, Array]:
@@ -85,12 +85,12 @@ def instrument_and_motion(n: int) -> tuple[Array, Array, Array]:
 def contenders(p: Array) -> dict[str, Function]:
     """Ours allocate what they return, as for users; heyoka only where it is installed."""
     compiled = load_packaged().chain
-    found: dict[str, Function] = {OURS: lambda t, x: compiled.output(t, x, p)}
+    functions: dict[str, Function] = {OURS: lambda t, x: compiled.output(t, x, p)}
     try:
-        return found | {HEYOKA: heyoka(p)}
+        return functions | {HEYOKA: heyoka(p)}
     except ModuleNotFoundError as error:
         print(f"missing: {error.name} is not installed", file=sys.stderr)
-        return found
+        return functions
 
 
 def heyoka(p: Array) -> Function:
@@ -100,13 +100,13 @@ def heyoka(p: Array) -> Function:
     phi = 2 * np.pi * float(p[1]) * variables[0]
     G = write_function(program(p), hy)(hy.cos(phi), hy.sin(phi), *variables[1:])
     compiled = hy.cfunc([G], list(variables))
-    there: dict[int, tuple[Array, Array]] = {}
+    buffers: dict[int, tuple[Array, Array]] = {}
 
     def run(t: Array, x: Array) -> Array:
-        if id(x) not in there:  # it wants one matrix: putting that together is not timed
-            there.clear()
-            there[id(x)] = aligned(np.vstack([t, x])), aligned(np.zeros((1, len(t))))
-        inputs, outputs = there[id(x)]
+        if id(x) not in buffers:  # it wants one matrix: putting that together is not timed
+            buffers.clear()
+            buffers[id(x)] = aligned(np.vstack([t, x])), aligned(np.zeros((1, len(t))))
+        inputs, outputs = buffers[id(x)]
         compiled(inputs=inputs, outputs=outputs)
         return outputs[0]
 
@@ -125,15 +125,15 @@ def program(p: Array) -> Sequence[tuple[str, Any]]:
     total, assignments = sp.Integer(0), [x for x in a.tape.assignments if x[0].name.startswith("M_")]
     of_each = [x for x in a.tape.assignments if not x[0].name.startswith("M_")]
     for j, (sign, quarter) in enumerate(zip(SIGNS, QUARTER_TURNS, strict=True)):
-        own = {q.symbol: sp.Float(float(p[2 + 4 * n + j]), 17) for n, q in enumerate(ACCELEROMETER)}
-        own |= {symbol("radius"): sp.Float(float(p[0]), 17)}
-        own |= {COS_J: sp.Integer((1, 0, -1, 0)[quarter]), SIN_J: sp.Integer((0, 1, 0, -1)[quarter])}
+        values = {q.symbol: sp.Float(float(p[2 + 4 * n + j]), 17) for n, q in enumerate(ACCELEROMETER)}
+        values |= {symbol("radius"): sp.Float(float(p[0]), 17)}
+        values |= {COS_J: sp.Integer((1, 0, -1, 0)[quarter]), SIN_J: sp.Integer((0, 1, 0, -1)[quarter])}
         for s, e in of_each:
-            own[s] = symbol(f"{s.name}_{j + 1}")
-            assignments.append((own[s], e.xreplace(own)))
-        total += sign * a.voltage.xreplace(own)
-    found = settled(assignments, {}).program([("G", total)])
-    return [*((s.name, e) for s, e in found.assignments), *found.outputs]
+            values[s] = symbol(f"{s.name}_{j + 1}")
+            assignments.append((values[s], e.xreplace(values)))
+        total += sign * a.voltage.xreplace(values)
+    straight = settled(assignments, {}).program([("G", total)])
+    return [*((s.name, e) for s, e in straight.assignments), *straight.outputs]
 
 
 def write_function(code: Sequence[tuple[str, Any]], module: Any) -> Callable[..., Any]:
@@ -193,18 +193,18 @@ def run() -> list[Row]:
     wrong = errors(p, functions)
     rows = [Row(f"{name}, error", e, "Eo", 1.2e-7 if name == OURS else None) for name, e in wrong.items()]
     for label, (n, inner) in SIZES.items():
-        given = aligned(t[:n]), aligned(x[:, :n])
+        inputs = aligned(t[:n]), aligned(x[:, :n])
         bound = memory_traffic(aligned(np.zeros(n)))
-        calls = {name: partial(f, *given) for name, f in (functions | {"bound": bound}).items()}
+        calls = {name: partial(f, *inputs) for name, f in (functions | {"bound": bound}).items()}
         times = interleave(calls, inner)
-        least, ours = times.pop("bound"), times[OURS]
+        memory, ours = times.pop("bound"), times[OURS]
         for name, s in times.items():
             goal = GOALS[label] if name == OURS else None
             rows.append(Row(f"{name}, {label}", 1e9 / n * s, "ns", goal))
         if HEYOKA in times:
             name = f"{HEYOKA} / {OURS}, {label}"
             rows.append(Row(name, times[HEYOKA] / ours, RATIO, FASTER[label], at_least=True))
-        rows.append(Row(f"reading 16 series, writing one, {label}", 1e9 / n * least, "ns"))
-        most = 1.4 if inner == 1 else None
-        rows.append(Row(f"{OURS} / memory bound, {label}", ours / least, RATIO, most))
+        rows.append(Row(f"reading 16 series, writing one, {label}", 1e9 / n * memory, "ns"))
+        limit = 1.4 if inner == 1 else None
+        rows.append(Row(f"{OURS} / memory bound, {label}", ours / memory, RATIO, limit))
     return rows

@@ -74,10 +74,10 @@ def _made(app: Sphinx, config: Any) -> None:
     from ragg_runtime.experiments import write_page
     from ragg_runtime.experiments.repeat import repeat_dynamic, repeat_multifrequency, repeat_turbulence
 
-    made = HERE / "_made"
-    (made / "effects").mkdir(parents=True, exist_ok=True)
+    target = HERE / "_made"
+    (target / "effects").mkdir(parents=True, exist_ok=True)
     for name in ("first-steps.ipynb", "demo-flight.parquet"):
-        _written(made / name, (ROOT / "examples" / name).read_bytes())
+        _written(target / name, (ROOT / "examples" / name).read_bytes())
     texts = build.effects() | {
         "errata.md": audit.page(),
         "simplified.md": simplified(),
@@ -87,17 +87,17 @@ def _made(app: Sphinx, config: Any) -> None:
         "commands.md": build.commands(),
         "model-toml.md": build.model_toml(),
     }
-    reports = made / "extra" / "reports"
-    if not (made / "json.md").exists():
+    reports = target / "extra" / "reports"
+    if not (target / "json.md").exists():
         reports.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
-            shown = build.demonstration(reports)
-        build.loop_figure(made / "loop.png", shown)
-        texts["json.md"] = build.json_page(shown.documents)
+            demonstration = build.demonstration(reports)
+        build.loop_figure(target / "loop.png", demonstration)
+        texts["json.md"] = build.json_page(demonstration.documents)
     for name, text in texts.items():
-        _written(made / name, text.encode())
-    if not (made / "transfer.png").exists():
-        draw_transfer(made / "transfer.png")
+        _written(target / name, text.encode())
+    if not (target / "transfer.png").exists():
+        draw_transfer(target / "transfer.png")
 
 
 def _written(target: Path, content: bytes) -> None:

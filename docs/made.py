@@ -51,8 +51,8 @@ def effects() -> dict[str, str]:
 
     limits = detection_limits()
     one, index = (environment("derive.emit").get_template(f"{n}.md.j2") for n in ("effect", "effects"))
-    found = {f"effects/{e.id}.md": one.render(e=e, limits=limits.get(e.id, {})) for e in catalogue()}
-    return found | {"effects.md": index.render(effects=catalogue())}
+    pages = {f"effects/{e.id}.md": one.render(e=e, limits=limits.get(e.id, {})) for e in catalogue()}
+    return pages | {"effects.md": index.render(effects=catalogue())}
 
 
 def detection_limits() -> dict[str, dict[str, str]]:
@@ -68,10 +68,10 @@ def detection_limits() -> dict[str, dict[str, str]]:
     s = scenario(1, duration=600.0, rate=8.0)
     s = replace(s, auxiliaries={**s.auxiliaries, **draw_rare(np.random.default_rng(1))})
     f = fit(load_packaged(), s.sheet, observe_flights([s.simulate().flight()], s.sheet))
-    found: dict[str, dict[str, str]] = {}
+    limits: dict[str, dict[str, str]] = {}
     for x in list_detectable(f, make_problem(f)):
-        found.setdefault(x.effect, {})[x.name] = f"{x.size:.2g}"
-    return found
+        limits.setdefault(x.effect, {})[x.name] = f"{x.size:.2g}"
+    return limits
 
 
 def model_toml() -> str:
@@ -140,8 +140,8 @@ def demonstration(reports: Path) -> Demonstration:
     steps = [s.as_json() for s in step.loaded.directory.history]
     (reports / "report.html").write_text(write_addition(steps, c, step.after, source, d), "utf-8")
     documents = {
-        name: made | api.Source(f"ragg {name} model", m, flights).as_json()
-        for name, made in {"compare": c.as_json(), "diagnose": d.as_json()}.items()
+        name: result | api.Source(f"ragg {name} model", m, flights).as_json()
+        for name, result in {"compare": c.as_json(), "diagnose": d.as_json()}.items()
     }
     documents["add"] = step.as_json() | api.Source("ragg add model", step.loaded, flights, before=m).as_json()
     for line in LINES:
@@ -168,16 +168,16 @@ LINES = (
 """What is run besides ``compare``, ``diagnose`` and ``add`` for the page of JSON: each of the other commands with ``--json``."""
 
 
-def json_page(found: dict[str, Any]) -> str:
+def json_page(documents: dict[str, Any]) -> str:
     """Keys of every command's JSON with type and meaning; a key without a meaning is an error."""
     from ragg_runtime.cli.main import COMMANDS
 
     meanings = read_meanings()
     text = ["# JSON", "", meanings["head"], ""]
-    for name in sorted(found, key=list(COMMANDS).index):
+    for name in sorted(documents, key=list(COMMANDS).index):
         text += [f"## {name}", "", "| key | type | meaning |", "|---|---|---|"]
         kinds: dict[str, list[str]] = {}
-        for path, kind in keys(found[name]):
+        for path, kind in keys(documents[name]):
             kinds.setdefault(path, []).append(kind or "empty here")
         for path, of in kinds.items():
             several = [k for k in dict.fromkeys(of) if k != "empty here"] or ["empty here"]

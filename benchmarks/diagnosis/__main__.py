@@ -48,12 +48,12 @@ class Cache:
         for file in sorted(p for folder in SOURCES for p in (ROOT / folder).rglob("*.py")):
             digest.update(file.relative_to(ROOT).as_posix().encode() + b"\0" + file.read_bytes() + b"\0")
         words = ["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"]
-        said = subprocess.run(words, capture_output=True, text=True, check=False).stdout
-        self.path, self.at = path, {"source": digest.hexdigest()[:12], "commit": said.strip()}
+        commit = subprocess.run(words, capture_output=True, text=True, check=False).stdout
+        self.path, self.at = path, {"source": digest.hexdigest()[:12], "commit": commit.strip()}
         self.lines: dict[str, dict[str, Any]] = {}
-        for one in path.read_text("utf-8").splitlines() if path.exists() else ():
+        for line in path.read_text("utf-8").splitlines() if path.exists() else ():
             with suppress(json.JSONDecodeError):  # of a line that was cut off by an interruption
-                x = json.loads(one)
+                x = json.loads(line)
                 if x["source"] == self.at["source"]:
                     self.lines[x["key"]] = x
 
@@ -120,8 +120,8 @@ def ask_array(o: argparse.Namespace, cache: Cache) -> DataFrame:
     for x in cache.run(tasks, o.jobs):
         recording, _, case = x["key"].partition("/")
         for a in x["answers"]:
-            found = {"recording": recording, "case": case} | a | {"commit": x["commit"]}
-            rows.append(found | {"holds": str(int(a["holds"])), "unfounded": "+".join(a["unfounded"])})
+            row = {"recording": recording, "case": case} | a | {"commit": x["commit"]}
+            rows.append(row | {"holds": str(int(a["holds"])), "unfounded": "+".join(a["unfounded"])})
     print("\n" + "\n".join(score.array(DataFrame(rows))))
     return DataFrame(rows)
 

@@ -47,8 +47,8 @@ class Rule:
 
     def flights(self) -> list[Spec]:
         """The 40 flights of a rule."""
-        own = [replace(s, index=s.index + 100) for s in _spread(self.kinds)]
-        return [*own, *_spread(ALL)]
+        chosen = [replace(s, index=s.index + 100) for s in _spread(self.kinds)]
+        return [*chosen, *_spread(ALL)]
 
 
 def _spread(kinds: str) -> list[Spec]:

@@ -81,10 +81,10 @@ def _rms(x: Array) -> float:
 def _play(x: Array, width: float) -> Array:
     """Hysteresis: what a part with so much play follows of x."""
     y = np.empty_like(x)
-    now = 0.0
+    state = 0.0
     for n, value in enumerate(x):
-        now = min(max(now, value - width), value + width)
-        y[n] = now
+        state = min(max(state, value - width), value + width)
+        y[n] = state
     return y
 
 
@@ -199,19 +199,19 @@ class Prepared:
 def fly(spec: Spec) -> dict[str, Any]:
     """The line of one flight; a crash is a result too."""
     begin, cpu = time.perf_counter(), time.process_time()
-    found: dict[str, Any] = {"id": spec.id, "kind": spec.kind, "record": spec.record}
+    line: dict[str, Any] = {"id": spec.id, "kind": spec.kind, "record": spec.record}
     try:
         with _limited(LONGEST):
             p = prepared(spec)
-            found["hidden"] = [asdict(h) for h in p.hidden]
-            found["outside"] = None if p.term is None else [p.term.name, p.term.with_mimics]
+            line["hidden"] = [asdict(h) for h in p.hidden]
+            line["outside"] = None if p.term is None else [p.term.name, p.term.with_mimics]
             ready = time.process_time()
-            found |= diagnosed(p)
-            found["cpu"] = round(time.process_time() - ready, 2)
+            line |= diagnosed(p)
+            line["cpu"] = round(time.process_time() - ready, 2)
     except Exception:
-        found["crash"] = traceback.format_exc()
-    found["seconds"] = round(time.perf_counter() - begin, 2)
-    return found | {"total_cpu": round(time.process_time() - cpu, 2)}
+        line["crash"] = traceback.format_exc()
+    line["seconds"] = round(time.perf_counter() - begin, 2)
+    return line | {"total_cpu": round(time.process_time() - cpu, 2)}
 
 
 def tested(spec: Spec) -> dict[str, Any]:
@@ -301,27 +301,27 @@ def _channels(w: World, x: Table) -> Table:
     """Demodulated channels in the place of the output; at both ends the filter has not seen enough."""
     phi, low = 2 * np.pi * w.scenario.sheet.spin_frequency * x["time"], low_pass(w.scenario.rate)
     k, half, G = w.scenario.sheet.scale_factor, len(low) // 2, x.pop("G_out")
-    made = {"inline": 4 * G * np.sin(2 * phi), "cross": -2 * G * np.cos(2 * phi)}
-    return x | {n: np.pad(convolve(v, low) / k, half, constant_values=np.nan) for n, v in made.items()}
+    channels = {"inline": 4 * G * np.sin(2 * phi), "cross": -2 * G * np.cos(2 * phi)}
+    return x | {n: np.pad(convolve(v, low) / k, half, constant_values=np.nan) for n, v in channels.items()}
 
 
 def _hidden(spec: Spec, o: Oracle) -> tuple[Hidden, ...]:
     """The effects of a flight."""
-    rng, known = spec.rng(5), list(o.kinds)
+    rng, effects = spec.rng(5), list(o.kinds)
     if spec.kind == "pair":
         return _pair(spec, o, rng)
     if spec.kind == "off-sheet" and spec.index % 3 == 2:
         return ()
     low, high = {"five": (5.0, 5.0), "ten": (10.0, 10.0), "strong": STRONG}.get(spec.kind, (10.0, 1000.0))
     strength = min(high, float(np.exp(rng.uniform(np.log(low), np.log(high)))))  # to rounding
-    order = np.random.default_rng(list(COUNTS).index(spec.kind)).permutation(len(known))
+    order = np.random.default_rng(list(COUNTS).index(spec.kind)).permutation(len(effects))
     place = spec.index + COUNTS[spec.kind] * (spec.sample % 10)
-    effect = known[order[place % len(known)]]  # in turn, in an order of each kind's own
+    effect = effects[order[place % len(effects)]]  # in turn, in an order of each kind's own
     for _ in range(TRIES):
         h = o.drawn(effect, strength, rng)
         if h is not None:
             return (h,)
-        effect = str(rng.choice(known))
+        effect = str(rng.choice(effects))
     raise RuntimeError("no effect is testable on this flight")
 
 
@@ -357,7 +357,7 @@ def diagnosed(p: Prepared) -> dict[str, Any]:
 def essence(d: Mapping[str, Any]) -> dict[str, Any]:
     """What the scoring needs of the JSON of a diagnosis."""
     ranking = [r | {"twins": r["indistinguishable_from"]} for r in d["ranking"]]
-    said = {r["effect"]: r["probability"] for r in ranking if (r["probability"] or 0.0) > 1e-3}
+    probabilities = {r["effect"]: r["probability"] for r in ranking if (r["probability"] or 0.0) > 1e-3}
     return {
         "verdict": d["verdict"],
         "reason": d["remark"],
@@ -367,7 +367,7 @@ def essence(d: Mapping[str, Any]) -> dict[str, Any]:
             for k, r in enumerate(ranking)
             if k < 6 or r["effect"] in d["found"]
         ],
-        "probability": {e: round(p, 4) for e, p in said.items()},
+        "probability": {e: round(p, 4) for e, p in probabilities.items()},
         "credible_set": d["credible_set"][:50],
         "tested": d["tests"],
         "terms_log10_p": d["unexplained"]["log10_p"],

@@ -87,7 +87,7 @@ class Oracle:
     ) -> None:
         """``lost``: samples whose output is missing; ``catalogue``: the effects that there are (``None``: all)."""
         self.model, self.flight = load_packaged(), flight
-        known = [e for e in self.model.candidates if catalogue is None or e.id in catalogue]
+        effects = [e for e in self.model.candidates if catalogue is None or e.id in catalogue]
         self.o = observe(flight, w.known)
         self.valid = self.o.record.valid if lost is None else self.o.record.valid & ~lost
         i = w.known.accelerometers
@@ -97,8 +97,8 @@ class Oracle:
         self.rms = np.sqrt(w.density * flight.rate / 2 * variance)
         self.taps = whitening(noise_rms, flight.rate, len(flight))
         p = make_vector(self.model, w.known)
-        every, ids = design.list_candidate_columns(self.model, w.known), {e.id for e in known}
-        self.columns = [c for c in every if c.effect in ids]
+        columns, ids = design.list_candidate_columns(self.model, w.known), {e.id for e in effects}
+        self.columns = [c for c in columns if c.effect in ids]
         self.raw = linearise(make_point(self.model, w.known, p, self.columns), self.o)[:-1]
         self.n = len(self.raw) - len(self.columns)
         white = self.whitened(self.raw)
@@ -110,7 +110,7 @@ class Oracle:
         self.Q = _orthonormal(np.concatenate(base))
         self.white = white[self.n :]
         self.left = self.projected(self.white)
-        self.kinds = {e.id: e.kind for e in known if e.id not in NEVER}
+        self.kinds = {e.id: e.kind for e in effects if e.id not in NEVER}
 
     def whitened(self, x: Array) -> Array:
         """(k, rows) of columns (k, m, N), V."""
@@ -154,18 +154,18 @@ class Oracle:
             return self._jitter(effect, strength)
         time = self.flight.time
         instant = float(time[0] + (time[-1] - time[0]) * rng.uniform(0.15, 0.85)) if kind == "step" else None
-        block, own = self.block(effect, instant), [self.columns[n] for n in at]
+        block, columns = self.block(effect, instant), [self.columns[n] for n in at]
         for _ in range(DIRECTIONS):
-            weights = _direction(effect, own, rng)
+            weights = _direction(effect, columns, rng)
             signature = weights @ block
             norm = float(np.linalg.norm(signature if beside is None else _beside(signature, beside)))
             # what is all but absorbed is rounding: its size would mean nothing
             if norm <= 1e-5 * np.linalg.norm(weights @ self.white[at]):
                 continue
-            values = _values(effect, own, strength / norm * weights)
+            values = _values(effect, columns, strength / norm * weights)
             size = float(np.max(np.abs(weights))) * strength / norm * design.EFFECT_PRIOR
-            most = LARGEST if strength <= 10.0 else LARGEST_STRONG
-            if size > most or np.max(np.abs(np.concatenate([np.ravel(v) for v in values.values()]))) > (
+            largest = LARGEST if strength <= 10.0 else LARGEST_STRONG
+            if size > largest or np.max(np.abs(np.concatenate([np.ravel(v) for v in values.values()]))) > (
                 LONGEST.get(effect, np.inf)
             ):
                 continue
@@ -236,24 +236,24 @@ def _beside(signature: Array, others: Array) -> Array:
     sizes = np.linalg.norm(others, axis=1)
     if not np.any(sizes):
         return signature
-    some = others[sizes > 0.0] / sizes[sizes > 0.0, None]
-    U, s, _ = np.linalg.svd(some.T, full_matrices=False)
+    unit = others[sizes > 0.0] / sizes[sizes > 0.0, None]
+    U, s, _ = np.linalg.svd(unit.T, full_matrices=False)
     U = U[:, s > 1e-7 * s[0]]
     return np.asarray(signature - U @ (U.T @ signature))
 
 
-def _direction(effect: str, own: Sequence[Column], rng: np.random.Generator) -> Array:
+def _direction(effect: str, columns: Sequence[Column], rng: np.random.Generator) -> Array:
     """Unit vector over an effect's columns: one parameter, in one accelerometer or in all four."""
-    weights = np.zeros(len(own))
+    weights = np.zeros(len(columns))
     if effect in COVARIANCES:
         d = rng.standard_normal(3)
         d /= np.linalg.norm(d)
-        for n, c in enumerate(own):
+        for n, c in enumerate(columns):
             weights[n] = d["xyz".index(c.name[-2])] * d["xyz".index(c.name[-1])]
         return weights
-    names = list(dict.fromkeys(c.name for c in own))
+    names = list(dict.fromkeys(c.name for c in columns))
     name = names[int(rng.integers(len(names)))]
-    at = [n for n, c in enumerate(own) if c.name == name]
+    at = [n for n, c in enumerate(columns) if c.name == name]
     if len(at) > 1 and rng.random() < 0.5:
         at = [at[int(rng.integers(len(at)))]]
     drawn = rng.standard_normal(len(at))
@@ -261,10 +261,10 @@ def _direction(effect: str, own: Sequence[Column], rng: np.random.Generator) -> 
     return weights / float(np.linalg.norm(weights))
 
 
-def _values(effect: str, own: Sequence[Column], coefficients: Array) -> dict[str, float | list[float]]:
+def _values(effect: str, columns: Sequence[Column], coefficients: Array) -> dict[str, float | list[float]]:
     """Parameters for the simulator, SI: one, or one of each accelerometer."""
     values: dict[str, Any] = {}
-    for c, x in zip(own, coefficients * [c.scale for c in own], strict=True):
+    for c, x in zip(columns, coefficients * [c.scale for c in columns], strict=True):
         name = c.name.split(".", 1)[1]
         if name not in CATALOGUE[effect] or x == 0.0:
             continue

@@ -197,11 +197,11 @@ def rough_gaps(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
 def rows_lost(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """One row in a hundred is not in the file, and one stretch of up to 5 s."""
     n = len(r.clean)
-    kept = rng.random(n) > 0.01
+    present = rng.random(n) > 0.01
     a = int(rng.integers(n // 4, n // 2))
-    kept[a : a + int(rng.uniform(1.0, 5.0) * r.rate)] = False
-    kept[:2] = True
-    return {c: v[kept] for c, v in x.items()}
+    present[a : a + int(rng.uniform(1.0, 5.0) * r.rate)] = False
+    present[:2] = True
+    return {c: v[present] for c, v in x.items()}
 
 
 def codes(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
@@ -260,12 +260,12 @@ def digits(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
 
 def without_omegadot(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
     """No angular acceleration, and gaps of up to 20 rows every few seconds."""
-    kept = np.ones(len(r.clean), dtype=np.bool_)
-    at = int(5 * r.rate)
-    while at < len(kept):
-        kept[at : at + int(rng.integers(1, 20))] = False
-        at += int(rng.uniform(2.0, 20.0) * r.rate)
-    return {c: v[kept] for c, v in x.items() if not c.startswith("omegadot")}
+    present = np.ones(len(r.clean), dtype=np.bool_)
+    start = int(5 * r.rate)
+    while start < len(present):
+        present[start : start + int(rng.integers(1, 20))] = False
+        start += int(rng.uniform(2.0, 20.0) * r.rate)
+    return {c: v[present] for c, v in x.items() if not c.startswith("omegadot")}
 
 
 # --- the kinds -------------------------------------------------------------------------------------------

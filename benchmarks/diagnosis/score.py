@@ -101,19 +101,19 @@ COLUMNS += ("p_effects", "p_terms", "p", "probability", "credible", "cpu", "comm
 
 def row(x: Line) -> dict[str, str]:
     """What is kept of a flight in a file of results, as text."""
-    found: dict[str, object] = {n: x.get(n, "") for n in ("id", "kind", "record", "verdict", "cpu", "commit")}
-    found |= {"outcome": outcome(x), "hidden": "+".join(truths(x)) if "hidden" in x else ""}
+    cells: dict[str, object] = {n: x.get(n, "") for n in ("id", "kind", "record", "verdict", "cpu", "commit")}
+    cells |= {"outcome": outcome(x), "hidden": "+".join(truths(x)) if "hidden" in x else ""}
     if x.get("outside"):
-        found["hidden"] = str(x["outside"][0]).replace(",", ";")
-    found["found"] = "+".join(x.get("found", ()))
+        cells["hidden"] = str(x["outside"][0]).replace(",", ";")
+    cells["found"] = "+".join(x.get("found", ()))
     if x["kind"] == "quiet":
-        found["alarm"] = int(alarm(x))
-        found |= least_p(x) if "terms_log10_p" in x else {}
+        cells["alarm"] = int(alarm(x))
+        cells |= least_p(x) if "terms_log10_p" in x else {}
     elif "probability" in x and x.get("hidden"):
         truth = set(truths(x))
-        found["probability"] = ";".join(f"{p:g}{'*' * (e in truth)}" for e, p in x["probability"].items())
-        found["credible"] = int(any(set(s) == truth for s in x["credible_set"]))
-    return {n: str(found.get(n, "")) for n in COLUMNS}
+        cells["probability"] = ";".join(f"{p:g}{'*' * (e in truth)}" for e, p in x["probability"].items())
+        cells["credible"] = int(any(set(s) == truth for s in x["credible_set"]))
+    return {n: str(cells.get(n, "")) for n in COLUMNS}
 
 
 def share(passed: Iterable[bool]) -> str:
@@ -153,9 +153,9 @@ def flights(rows: DataFrame) -> list[str]:
     claims["something hidden"] = hidden[hidden.hidden != ""]
     tests = {"p_effects": "effects", "p_terms": "generic terms", "p": "both"}
     counts = [
-        (k, plan.WHAT[k], *(sum(own.outcome == o) or "" for o in OUTCOMES), share(own.outcome == "right"))
-        for k, own in of.items()
-        if len(own)
+        (k, plan.WHAT[k], *(sum(part.outcome == o) or "" for o in OUTCOMES), share(part.outcome == "right"))
+        for k, part in of.items()
+        if len(part)
     ]
     p_values = [
         (what, *(share(tame[n][tame[n] != ""].astype(float) < a) for a in LEVELS))
@@ -182,11 +182,11 @@ def flights(rows: DataFrame) -> list[str]:
 
 def _reliability(rows: DataFrame) -> Iterable[Sequence[str]]:
     """Of all effects of all flights with something hidden, by their stated probability: its mean, and how many are hidden."""
-    said = [t for r in rows.probability for t in r.split(";") if t]
-    x = DataFrame({"p": [float(t.rstrip("*")) for t in said], "hidden": [t.endswith("*") for t in said]})
+    pairs = [t for r in rows.probability for t in r.split(";") if t]
+    x = DataFrame({"p": [float(t.rstrip("*")) for t in pairs], "hidden": [t.endswith("*") for t in pairs]})
     for low, high in pairwise(EDGES):
-        own = x[(x.p >= low) & (x.p < high)]
-        yield f"{low:g} to {min(high, 1.0):g}", f"{own.p.mean():.3f}", share(own.hidden)
+        part = x[(x.p >= low) & (x.p < high)]
+        yield f"{low:g} to {min(high, 1.0):g}", f"{part.p.mean():.3f}", share(part.hidden)
 
 
 def _by_record(rows: DataFrame) -> list[str]:
@@ -208,16 +208,16 @@ def _wrong(rows: DataFrame) -> list[str]:
 
 def against(rows: DataFrame, before: DataFrame) -> list[str]:
     """What has changed, flight by flight, since other results."""
-    both = rows.merge(before, on="id", suffixes=("", "_before"))
+    merged = rows.merge(before, on="id", suffixes=("", "_before"))
     lines = []
     for k in plan.COUNTS:
-        own = both[both.kind == k]
-        if len(own):
-            pairs = zip(own.outcome_before, own.outcome, strict=True)
+        part = merged[merged.kind == k]
+        if len(part):
+            pairs = zip(part.outcome_before, part.outcome, strict=True)
             moved = Counter(f"{a} to {b}" for a, b in pairs if a != b).most_common()
-            change = mean_change(own.outcome_before, own.outcome)
-            lines.append((k, len(own), change, ", ".join(f"{n} {m}" for m, n in moved)))
-    cpu = [pd.to_numeric(both[n]).sum() for n in ("cpu_before", "cpu")]
+            change = mean_change(part.outcome_before, part.outcome)
+            lines.append((k, len(part), change, ", ".join(f"{n} {m}" for m, n in moved)))
+    cpu = [pd.to_numeric(merged[n]).sum() for n in ("cpu_before", "cpu")]
     return [
         *("", "### Against other results, flight by flight", ""),
         *table(("kind", "flights", "mean change", "outcomes that changed"), lines),
@@ -236,10 +236,10 @@ def ablation(rows: DataFrame) -> list[str]:
 def quiet_records(rows: DataFrame) -> list[str]:
     """A line for each kind of record without effects: how many are accused of one, and how many are unexplained."""
     lines = []
-    for name, own in rows.groupby("record", sort=False):
-        accused = own.outcome == "wrong"
-        told = ", ".join(f"{e} {n}" for e, n in Counter(own.found[accused]).most_common())
-        lines.append((name, share(accused), told, sum((own.alarm == "1") & ~accused)))
+    for name, part in rows.groupby("record", sort=False):
+        accused = part.outcome == "wrong"
+        effects = ", ".join(f"{e} {n}" for e, n in Counter(part.found[accused]).most_common())
+        lines.append((name, share(accused), effects, sum((part.alarm == "1") & ~accused)))
     return table(("nothing hidden, noise", "accused", "of", "unexplained"), lines)
 
 
@@ -247,18 +247,18 @@ def ceiling(rows: DataFrame) -> list[str]:
     """How many of each strength an oracle finds."""
     heads = ("kind", "the right effect alone, 5 %", "the right effect, as one of the catalogue, 3 %")
     of = rows.groupby("kind", sort=False)
-    return table(heads, [(k, share(own.alone == "1"), share(own.found == "1")) for k, own in of])
+    return table(heads, [(k, share(part.alone == "1"), share(part.found == "1")) for k, part in of])
 
 
 def array(rows: DataFrame) -> list[str]:
     """How many questions hold, of each recording, and claims without evidence."""
-    asked = [*rows.question.unique()]
+    questions = [*rows.question.unique()]
     lines = []
-    for name, own in rows.groupby("recording", sort=False):
-        holds = [own.holds[own.question == q] == "1" for q in asked] + [own.holds == "1"]
-        unfounded = [e for u in own.unfounded for e in u.split("+") if e]
+    for name, part in rows.groupby("recording", sort=False):
+        holds = [part.holds[part.question == q] == "1" for q in questions] + [part.holds == "1"]
+        unfounded = [e for u in part.unfounded for e in u.split("+") if e]
         lines.append((name, *(f"{sum(x)} of {len(x)}" for x in holds), len(unfounded)))
-    return table(("recording", *asked, "all", "claims without evidence"), lines)
+    return table(("recording", *questions, "all", "claims without evidence"), lines)
 
 
 HEAD = """\
@@ -308,12 +308,12 @@ Mean change: right 1, part and said 1/2, silent and unexplained 0, wrong -1.
 
 def page() -> str:
     """The page, from the results that are committed."""
-    seeds, held = (", ".join(map(str, x)) for x in (plan.REFERENCE, plan.HELD))
+    seeds, held_out = (", ".join(map(str, x)) for x in (plan.REFERENCE, plan.HELD))
     count = sum(plan.COUNTS.values())
-    text = [HEAD.format(flights=count, kinds=len(records.FIRST), seeds=seeds, held=held)]
-    for name, title, made, words in SECTIONS:
+    text = [HEAD.format(flights=count, kinds=len(records.FIRST), seeds=seeds, held=held_out)]
+    for name, title, tabulate, words in SECTIONS:
         rows = read(Path(__file__).parent / f"{name}.csv")
-        text += [f"## {title}: commit {', '.join(sorted(rows.commit.unique()))}", words, *made(rows), ""]
+        text += [f"## {title}: commit {', '.join(sorted(rows.commit.unique()))}", words, *tabulate(rows), ""]
     return "\n".join(text)
 
 

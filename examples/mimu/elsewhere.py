@@ -114,10 +114,10 @@ class SensorSet:
 
 def cases(path: Path | None, *names: str) -> Iterator[SensorSet]:
     """The record of the page, and others, of a recording, or of what is shipped; all or those named."""
-    made = partial(_recorded, record.read(path)) if path else _shipped
+    make = partial(_recorded, record.read(path)) if path else _shipped
     for name in CASES if path else SHIPPED:
         if not names or name in names:
-            yield made(name, **CASES[name])
+            yield make(name, **CASES[name])
 
 
 def _recorded(
@@ -228,16 +228,16 @@ def known() -> str:
 
 
 def ranked(d: Diagnosis, most: int = 4) -> str:
-    """What a diagnosis ranks first, its verdict, and what it finds left over."""
+    """The best of a ranking, the verdict, and what remains in the residual."""
     rows = []
     for r in d.ranking[:most]:
-        own = [f"{q.name} = {q.value:.2g} ± {q.std:.1g} {q.unit.removesuffix('1')}" for q in r.parameters[:3]]
+        fit = [f"{q.name} = {q.value:.2g} ± {q.std:.1g} {q.unit.removesuffix('1')}" for q in r.parameters[:3]]
         log_p = f"{r.log_p / np.log(10.0):.0f}" if np.isfinite(r.log_p) else "certain"
-        rows.append((f"`{r.effect}`", log_p, ", ".join(x.rstrip() for x in own)))
-    said = f"\n\nVerdict: `{d.verdict}`" + (f", {', '.join(d.found)}" if d.found else "")
-    left = [f"{x['harmonic']} × `{x['term']}`" for x in d.terms()[:3]] if d.verdict == "unexplained" else []
-    more = [f"left over: {', '.join(left)}"] if left else []
-    return table(("effect", "log10 p", "parameters"), rows) + "; ".join([said, *more]) + "."
+        rows.append((f"`{r.effect}`", log_p, ", ".join(x.rstrip() for x in fit)))
+    verdict = f"\n\nVerdict: `{d.verdict}`" + (f", {', '.join(d.found)}" if d.found else "")
+    terms = [f"{x['harmonic']} × `{x['term']}`" for x in d.terms()[:3]] if d.verdict == "unexplained" else []
+    residual = [f"left over: {', '.join(terms)}"] if terms else []
+    return table(("effect", "log10 p", "parameters"), rows) + "; ".join([verdict, *residual]) + "."
 
 
 # --- the questions ---------------------------------------------------------------------------------------
@@ -286,8 +286,8 @@ def agrees(question: str, d: Diagnosis, effect: str, known: Mapping[str, float],
     if not near:
         sigmas = worth(d.fitted, effect, known)
         parts.append(f"worth {sigmas:.1f} sigma")
-        said = " ".join([str(d.as_json()["reason"]), *(n.effect for n in d.not_testable)])
-        near = sigmas < WORTH and set(d.found) <= FOUNDED - {effect} and effect in said
+        text = " ".join([str(d.as_json()["reason"]), *(n.effect for n in d.not_testable)])
+        near = sigmas < WORTH and set(d.found) <= FOUNDED - {effect} and effect in text
     return Answer.of(question, d, bool(near), "; ".join(parts))
 
 
@@ -304,9 +304,9 @@ def worth(f: Fitted, effect: str, known: Mapping[str, float]) -> float:
     sure = np.diag([f.instrument.widths.get(c.name, 1.0) for c in f.calibration.columns])
     T = np.vstack([f.data, np.hstack([sure, np.zeros((n, f.data.shape[1] - n))])])
     Q = np.linalg.qr(T[:, :n])[0]
-    own, rest = (x - Q @ (Q.T @ x) for x in (T[:, n:-1] @ sizes, T[:, -1]))
-    rest = rest - own * (own @ rest) / (own @ own)
-    return float(np.sqrt(own @ own / (rest @ rest / rows)))
+    signature, rest = (x - Q @ (Q.T @ x) for x in (T[:, n:-1] @ sizes, T[:, -1]))
+    rest = rest - signature * (signature @ rest) / (signature @ signature)
+    return float(np.sqrt(signature @ signature / (rest @ rest / rows)))
 
 
 def answer(path: Path | None, case: str) -> dict[str, Any]:

@@ -69,16 +69,16 @@ LENGTH = 45.0
 
 def packets(raw: bytes) -> NDArray[np.int16]:
     """(N, 8, 2, 3) counts: sensor, accelerometer or gyroscope, axis; broken packets are left out."""
-    at, found = 0, []
+    at, counts = 0, []
     while at + 106 <= len(raw):
         end = at + 6 + raw[at + 3]
-        whole = raw[at] == 0xAA and raw[at + 3] == 100
-        if whole and sum(raw[at : end - 2]) & 0xFFFF == int.from_bytes(raw[end - 2 : end], "big"):
-            found.append(np.frombuffer(raw[at + 8 : at + 104], ">i2").reshape(8, 2, 3).astype(np.int16))
+        complete = raw[at] == 0xAA and raw[at + 3] == 100
+        if complete and sum(raw[at : end - 2]) & 0xFFFF == int.from_bytes(raw[end - 2 : end], "big"):
+            counts.append(np.frombuffer(raw[at + 8 : at + 104], ">i2").reshape(8, 2, 3).astype(np.int16))
             at = end
         else:
             at += 1
-    return np.array(found)
+    return np.array(counts)
 
 
 def read(path: Path) -> Raw:
@@ -113,9 +113,9 @@ def angular_acceleration(force: Array, omega: Array, picked: Sequence[int] = FRO
     felt = others(picked)
     r = places()[felt] - places()[felt].mean(axis=0)
     lever = np.concatenate([np.cross(np.eye(3), x).T for x in r])  # alpha x r
-    still = np.linalg.pinv(np.hstack([np.tile(np.eye(3), (4, 1)), lever]))
-    own = force[:, felt] - np.cross(omega[:, None], np.cross(omega[:, None], r))
-    return np.asarray(own.reshape(len(force), 12) @ still[3:].T)
+    solution = np.linalg.pinv(np.hstack([np.tile(np.eye(3), (4, 1)), lever]))
+    felt_force = force[:, felt] - np.cross(omega[:, None], np.cross(omega[:, None], r))
+    return np.asarray(felt_force.reshape(len(force), 12) @ solution[3:].T)
 
 
 def columns(
@@ -140,7 +140,7 @@ def columns(
 def rests(force: Array, rate: Array, quiet: NDArray[np.bool_], picked: Sequence[int] = FRONT) -> Flight:
     """What the array felt while it lay still, averaged over :data:`BLOCK` samples."""
     n = len(force) // BLOCK
-    whole = quiet[: n * BLOCK].reshape(n, BLOCK).all(axis=1)
+    at_rest = quiet[: n * BLOCK].reshape(n, BLOCK).all(axis=1)
     blocks = [x[: n * BLOCK].reshape(n, BLOCK, 8, 3) for x in (force, rate)]
     channels, outputs = columns(*(x.mean(axis=1) for x in blocks), picked)
     # The mean angular acceleration of a block is the change of the rate over it.
@@ -149,7 +149,7 @@ def rests(force: Array, rate: Array, quiet: NDArray[np.bool_], picked: Sequence[
     slope = change / ((BLOCK - quarter) / RATE)
     channels |= {f"omegadot_{k}": slope[:, i] for i, k in enumerate("xyz")}
     time = np.arange(n) * (BLOCK / RATE)
-    return Flight(time=time, channels=channels, outputs=outputs, name="rests", valid=whole)
+    return Flight(time=time, channels=channels, outputs=outputs, name="rests", valid=at_rest)
 
 
 def motion(force: Array, rate: Array, saturated: NDArray[np.bool_], picked: Sequence[int] = FRONT) -> Flight:
@@ -207,10 +207,10 @@ def main(raw: str, folder: str) -> None:
     force, rate, saturated = read(Path(raw))
     quiet, start = parts(rate)
     end = start + round(LENGTH * RATE)
-    there = Path(folder)
-    write_flight(rests(force[:start], rate[:start], quiet[:start]), there / "rests.parquet")
+    target = Path(folder)
+    write_flight(rests(force[:start], rate[:start], quiet[:start]), target / "rests.parquet")
     moving = [x[start:end] for x in (force, rate, saturated)]
-    write_flight(motion(*moving), there / "motion.parquet")
+    write_flight(motion(*moving), target / "motion.parquet")
 
 
 if __name__ == "__main__":
