@@ -64,8 +64,8 @@ from ragg_runtime.workspace import (
     mapping_of,
     mapping_text,
     new,
-    now,
     read_flights,
+    stamp,
 )
 
 __all__ = [
@@ -257,7 +257,7 @@ def add(
     text = add_effect(m.directory.text, setting)
     step = HistoryStep(
         action="add",
-        time=now(),
+        time=stamp(),
         effect=effect,
         before=None if before is None else before.errors_json(),
         after=None if after is None else after.errors_json(),
@@ -409,7 +409,7 @@ def calibrate(
 
 def _save_calibration(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | None) -> Loaded:
     d = m.directory
-    new = _calibrate.make_saved(c, flights, now())
+    new = _calibrate.make_saved(c, flights, stamp())
     step = HistoryStep("calibrate", new.time, after=new.error, flights=MappingProxyType(dict(new.flights)))
     directory = replace_model_dir(
         d,
@@ -432,7 +432,7 @@ def validate(m: Loaded, c: Comparison, fitted: Sequence[Flight], flights: Sequen
     """Test the calibration of a comparison on other flights, on which nothing is fitted."""
     calibrated_ = Calibrated(c.fitted, c.nominal, c.calibrated, c.holdout)
     return _frozen.compare_frozen(
-        m.model, m.instrument, flights, _calibrate.make_saved(calibrated_, fitted, now())
+        m.model, m.instrument, flights, _calibrate.make_saved(calibrated_, fitted, stamp())
     )
 
 

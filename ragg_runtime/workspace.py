@@ -94,7 +94,7 @@ def new(path: Path | str, source: Path | str | None = None, mapping: Path | str 
         path,
         completed,
         generated=derive.list_files(instrument),
-        history=(HistoryStep("new", now(), text=completed),),
+        history=(HistoryStep("new", stamp(), text=completed),),
         mapping=mapping_toml,
     )
     m = load_state(directory)
@@ -150,7 +150,7 @@ def change(
 
     ``tell`` is called with the new model before; if it raises, nothing is changed.
     """
-    step = HistoryStep(action, now(), effect, text=text)
+    step = HistoryStep(action, stamp(), effect, text=text)
     planned = as_of(m, text, step)
     if tell is not None:
         tell(planned)
@@ -158,7 +158,7 @@ def change(
     return load_state(replace_model_dir(m.directory, text, generated=generated, step=step))
 
 
-def now() -> str:
+def stamp() -> str:
     """The instant as written in a history."""
     return datetime.now(UTC).isoformat(timespec="seconds")
 
