@@ -108,10 +108,10 @@ class Units:
 
     def divide(self, unit: str, by: Iterable[str]) -> str:
         """A unit over some others, each symbol once: ``1/K`` for m/s^2 over m/s^2 and K."""
-        found = self.parse(unit)
+        quotient = self.parse(unit)
         for other in by:
-            found /= self.parse(other)
-        return f"{found:~C}".replace("**", "^") or "1"
+            quotient /= self.parse(other)
+        return f"{quotient:~C}".replace("**", "^") or "1"
 
     def to_si(self, value: Value, unit: str, si_unit: str, where: str | None = None) -> Value:
         """``value`` in ``unit``, converted to ``si_unit``; UserError if dimensions differ. rpm and rad/s become turns a second."""
