@@ -226,8 +226,8 @@ def calibrate(
     fit = partial(calibration.fit, model, observations=observations, noise=noise, unweighted=unweighted)
     found = instrument, (c := fit(instrument, start=start))
     for _ in range(WIDENED):
-        wider = widen_priors(model, instrument, c)
-        if wider is None:
+        wider = widen_priors(model, instrument, c) if c.converged else None
+        if wider is None:  # or where it has not come to an optimum, which alone tells how wide
             break
         instrument, c = wider, fit(wider, start=c.p)
     return (instrument, c) if c.excess <= QUIET else found

@@ -67,7 +67,8 @@ def diagnose_fitted(
     first = Stage.of(f)
     several = len(flights) > 1
     apart = find_disagreement(first, extend) if several and are_far_apart(first) else ()
-    evidence = search(first, extend, apart=bool(apart))
+    odd = any(flag.open for x in flights for flag in x.flags)
+    evidence = search(first, extend, apart=bool(apart), odd=odd)
     output = _find_output_effects(f, flights)
     found = Conclusion.of(evidence, output, apart=bool(apart))
     if several and found.remains and not apart:

@@ -166,13 +166,15 @@ def _with_priors_of_sheet(f: Fitted) -> Fitted | None:
     return prepare_evidence(f.model, sheet, f.observations, c)
 
 
-def select_strong(first: Stage, extend: Extend | None) -> tuple[list[AddedEffect], Stage, bool]:
-    """The strong effects, the strongest first; the stage at which none is left, or what is missing is not in the catalogue, or
-    all fits are made; and whether they are.
+def select_strong(
+    first: Stage, extend: Extend | None, most: int = selection.MOST
+) -> tuple[list[AddedEffect], Stage, bool]:
+    """The strong effects, the strongest first, at ``most`` so many; the stage at which none is left, or what is missing is not in the
+    catalogue, or all fits are made; and whether they are.
     """
     found: list[AddedEffect] = []
     stage, fits = first, FITS
-    while extend is not None and stage.strong and len(found) < selection.MOST and fits > 0:
+    while extend is not None and stage.strong and len(found) < most and fits > 0:
         contest = Contest(stage, extend, fits)
         one = contest.add_strongest()
         if one is None:
