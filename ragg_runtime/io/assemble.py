@@ -22,6 +22,7 @@ from ragg_runtime.io.record import (
     GRADIENT,
     RATES,
     SI_UNITS,
+    SPECIFIC_FORCE,
     WIDEST_SPIKE,
     Array,
     Flight,
@@ -102,7 +103,7 @@ def make_flight(
         demodulation=made.demodulation,
         instants=made.instants,
         origin=made.origin,
-        lacking=np.any([np.isnan(placed[n]) for n in ANGULAR_RATE], axis=0),
+        lacking=_find_lacking_rates(placed),
     )
     if ANGULAR_ACCELERATION[0] not in channels:
         flight = replace(derive_acceleration(flight), notes=(*notes, NOTE))
@@ -116,6 +117,13 @@ def make_flight(
             remedy="record all columns at one rate, or resample the file to the lowest rate needed",
         )
     return flight
+
+
+def _find_lacking_rates(placed: Mapping[str, Array]) -> Mask:
+    """(N,): samples without a rate; one of zero beside a specific force that lacks is none, either: the sensor was off."""
+    forces, rates = (np.array([placed[n] for n in names]) for names in (SPECIFIC_FORCE, ANGULAR_RATE))
+    off = np.any(np.isnan(forces), axis=0) & np.any(rates == 0.0, axis=0)
+    return np.asarray(np.any(np.isnan(rates), axis=0) | off)
 
 
 def derive_acceleration(x: Flight, lost: Mask | None = None) -> Flight:

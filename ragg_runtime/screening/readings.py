@@ -227,6 +227,9 @@ FEWEST = 8  # recorded values that are needed to see how they come
 # share of the values of a column joined by lines that must follow each other at the same number of samples
 REGULAR = 0.99
 
+KINK = 0.1
+"""Second difference, over the usual one thereabouts, at an end of a gap that was filled by a line; next to an inflection it is small."""
+
 STRAIGHT = 1e-3
 """Second difference, over the root mean square of all, below which three samples lie on one line: digits that were written make
 less, and of recorded values one in a thousand bends so little."""
@@ -261,14 +264,14 @@ def leave_out_repeated(flight: Flight) -> Flight:
         if r is None:
             continue
         found.append((name, r))
-        off |= r.left_out & (name in ANGULAR_RATE and r.how == "stuck")
+        off |= r.left_out & (name in ANGULAR_RATE and not r.every)
         if name in flight.outputs:
             columns[name] = np.where(r.left_out, np.nan, x)
             continue
-        columns[name] = bridge_gaps(x, there & ~r.left_out, smooth=r.how != "stuck", turning=turning)
-        if r.how == "stuck" or not turning:  # a disc turns smoothly between two angles
+        columns[name] = bridge_gaps(x, there & ~r.left_out, smooth=r.every > 0, turning=turning)
+        if not r.every or not turning:  # a disc turns smoothly between two angles
             valid &= ~r.left_out
-    slower = {n for n, r in found if r.how != "stuck"}
+    slower = {n for n, r in found if r.every}
     for sensor in (SPECIFIC_FORCE, ANGULAR_RATE):
         names = [n for n in sensor if n in columns and n not in slower]
         lost = _find_lost_packets([columns[n] for n in names], valid)
@@ -280,12 +283,14 @@ def leave_out_repeated(flight: Flight) -> Flight:
     if not found:
         return flight
     changed = {n: columns[n] for n, _ in found}
-    return change_columns(flight, changed, valid, off).flagged(_flags(found, flight))
+    return change_columns(flight, changed, valid, off).flagged(
+        _flags([(n, r) for n, r in found if np.any(r.left_out & flight.valid)], flight)
+    )
 
 
 def _find_known(flight: Flight) -> Mask:
     """(N,): samples with all columns; next to an end or a gap too, where a derivative is not relied upon."""
-    if flight.lacking is None:
+    if flight.lacking is None or ANGULAR_ACCELERATION[0] in flight.written:
         return flight.valid
     return flight.valid | (
         binary_dilation(flight.lacking, iterations=REACH, border_value=1) & ~flight.lacking
@@ -314,7 +319,9 @@ def _take_recorded_rate(flight: Flight) -> Flight:
 
 @dataclass(frozen=True)
 class _Repeated:
-    """Samples (N,) that repeat others: ``repeated`` or ``joined by straight lines``, recorded ``every`` so many samples, or ``stuck``."""
+    """Samples (N,) that repeat others: ``repeated`` or ``joined by straight lines``, recorded ``every`` so many samples, or in places
+    ``stuck`` or ``interpolated``.
+    """
 
     how: str
     left_out: Mask
@@ -340,8 +347,10 @@ def _repeated(x: Array, there: Mask, turning: bool) -> _Repeated | None:
     joined = None if turning else _joined(x, there)  # the angle of a disc is a line
     if joined is not None:
         return joined
-    stuck = _stuck(x, there, equal, 0.0 if step is None else step, turning)
-    return _Repeated("stuck", stuck) if stuck.any() else None
+    stuck = _stuck(x, there, equal, step or 0.0, turning)
+    lines = _find_lines(x, there, step or 0.0) & ~(stuck | turning | coarse)
+    found = _Repeated("interpolated" if lines.any() else "stuck", stuck | lines)
+    return found if found.left_out.any() else None
 
 
 def _find_lost_packets(axes: Sequence[Array], there: Mask) -> Mask:
@@ -415,6 +424,23 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float, turning: bool) -> Ma
     return found
 
 
+def _find_lines(x: Array, there: Mask, step: float) -> Mask:
+    """(N,): samples on a line between others, which a column that bends far more reaches and leaves by a kink: gaps that were filled."""
+    found = np.zeros(len(x), dtype=np.bool_)
+    bend = np.where(there[2:] & there[1:-1] & there[:-2], np.abs(np.diff(x, 2)), np.nan)
+    rough = bend[bend > 2 * step]
+    finest = max(STRAIGHT * float(np.median(rough)) if len(rough) else 0.0, 2 * step)
+    for run in runs(bend <= finest):
+        first, last = run.start, run.stop + 1
+        kinks = bend[[max(first - 1, 0), min(run.stop, len(bend) - 1)]]
+        near = bend[max(first - LOCAL, 0) : last + LOCAL]
+        usual = float(np.median(near[near > finest])) if np.any(near > finest) else 0.0
+        off = np.abs(x[first : last + 1] - np.linspace(x[first], x[last], last - first + 1))
+        if np.any(kinks > KINK * usual) and np.max(off) <= finest < abs(x[last] - x[first]) / COARSE:
+            found[first + 1 : last] |= len(x) * (finest / usual) ** (last - first - 1) < RARE
+    return found
+
+
 def _find_lost(x: Array, there: Mask, stuck: Mask) -> Mask:
     """(N,): single samples of values that come again and again, zero among them: readings that did not arrive."""
     found = np.zeros(len(x), dtype=np.bool_)
@@ -458,10 +484,14 @@ def _describe(r: _Repeated, flight: Flight) -> str:
     if r.every:
         return f"recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only recorded values are used"
     at, places = np.flatnonzero(r.left_out), runs(r.left_out)
+    filled = r.how == "interpolated"
     if max(x.stop - x.start for x in places) <= WIDEST_SPIKE:
         where = ", ".join(f"{t:.6g}" for t in flight.time[at[:3]]) + " ..." * (len(at) > 3)
-        lost = f"repeated, or zero, at {count(len(at), 'sample')} (t = {where} s)"
+        lost = f"{'interpolated' if filled else 'repeated'}, or zero, at {count(len(at), 'sample')} (t = {where} s)"
         return f"{lost}: readings that did not arrive? not used"
-    some = (f"{x.stop - x.start} equal samples from {flight.time[x.start]:.5g} s" for x in places[:3])
+    some = (
+        f"{x.stop - x.start} {'equal ' * (not filled)}samples from {flight.time[x.start]:.5g} s"
+        for x in places[:3]
+    )
     more = f" and {len(places) - 3} times more" if len(places) > 3 else ""
-    return f"the value is stuck: {', '.join(some)}{more}, unlike noise; {len(at)} samples not used"
+    return f"the value is {r.how}: {', '.join(some)}{more}, unlike noise; {len(at)} samples not used"

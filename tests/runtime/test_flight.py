@@ -95,6 +95,9 @@ def test_angular_acceleration_is_derived(load: Load) -> None:
     found = load(table)
     assert found.channels["omegadot_y"] == pytest.approx(2 * np.cos(2 * table["time"]), abs=3e-4)
     assert any("omegadot" in note for note in found.notes)
+    off = np.isin(np.arange(N), range(60, 90))  # without power
+    powerless = {"a_z": np.where(off, np.nan, table["a_z"]), "omega_y": np.where(off, 0.0, table["omega_y"])}
+    assert np.array_equal(load(table | powerless).lacking, off)
     names = [f"omegadot_{k}" for k in "xyz"]
     given = load(table | dict.fromkeys(names, np.full(N, 7.0)), dict.fromkeys(names, "deg/s^2"))
     assert given.channels["omegadot_y"] == pytest.approx(np.full(N, np.deg2rad(7)))
