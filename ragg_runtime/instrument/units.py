@@ -275,6 +275,7 @@ _NAMED = {
         "V": ("Vdc", "VDC", "V DC"),
         "mV": ("mVolt", "mVolts"),
         "g": ("g's", "G's", "gs", "gee", "gees"),
+        "mbar": ("mb",),
         "1": ("unitless",),
     }.items()
     for spelling in spellings
@@ -294,7 +295,7 @@ _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 
 def list_spellings(text: str) -> Iterator[str]:
     """Readings of ``text`` in the order to try: the field's spellings first."""
-    text = text.replace("º", "°")
+    text = re.sub("degrees?_?(north|east|true|[NE])", "deg", text.replace("º", "°"))  # CF writes latitudes so
     if degrees := _DEGREES.fullmatch(text):
         text = {"C": "degC", "F": "degF", "K": "K"}[degrees[1].upper()]
     yield _NAMED.get(text, text)

@@ -330,7 +330,7 @@ def test_g_is_g0_wherever_it_stands(g0: float) -> None:
         *((volt, "V", 1.0) for volt in ("Volt", "volts")),
         ("mVolt", "V", 1e-3),
         ("DEG/S", "rad/s", math.pi / 180),
-        ("mdps", "rad/s", math.pi / 180e3),
+        *(("mdps", "rad/s", math.pi / 180e3), ("degrees_north", "rad", math.pi / 180), ("mb", "Pa", 100.0)),
         ("Deg/Hr", "rad/s", math.pi / 180 / 3600),
         ("m/s²", "m/s^2", 1.0),
         ("G", "m/s^2", 9.8),
