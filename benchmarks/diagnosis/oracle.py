@@ -155,7 +155,7 @@ class Oracle:
         time = self.flight.time
         instant = float(time[0] + (time[-1] - time[0]) * rng.uniform(0.15, 0.85)) if kind == "step" else None
         block, columns = self.block(effect, instant), [self.columns[n] for n in at]
-        for _ in range(DIRECTIONS):
+        for _ in range(DIRECTIONS if at else 0):  # it may have no column beside an unknown gradient
             weights = _direction(effect, columns, rng)
             signature = weights @ block
             norm = float(np.linalg.norm(signature if beside is None else _beside(signature, beside)))
