@@ -131,14 +131,6 @@ class Regression:
         S = root @ np.array(scores).T
         return np.asarray(S @ S.T)
 
-    @property
-    def stated(self) -> Array:
-        """(n, n): the covariance to state, with what the prior leaves open, and no variance below the model's own."""
-        C = self.covariance
-        V = self.sandwich + C @ C  # the prior's rows are those of unit
-        wider = np.sqrt(np.maximum(1.0, np.diag(C) / np.maximum(np.diag(V), 1e-300)))
-        return np.asarray(V * np.outer(wider, wider))
-
     def significance(self, effect: str) -> Significance:
         """Of an effect fitted jointly with all others, by its columns that are at rest where it is absent."""
         E, C = [k for k in self.columns(effect) if k not in self.shapes], self.covariance
@@ -235,9 +227,11 @@ def find_best_single(bases: Sequence[Remainder]) -> float:
     return max(sum(max([0.0, *singles(s)]) for s in b.searches) for b in bases)
 
 
-def add_shift(x: Regression, left: Remainder, columns: Sequence[str], projected: Sequence[str]) -> Array:
-    """(n, n): the covariance to state of ``columns``, with how far the values move when the generic terms that are left are fitted
-    beside the columns ``projected`` out of the residual.
+def estimate_covariance(
+    x: Regression, left: Remainder, columns: Sequence[str], projected: Sequence[str]
+) -> Array:
+    """(n, n): the covariance to state of ``columns``, no variance below the model's own, with how far the values move when the generic
+    terms that are left are fitted beside the columns ``projected`` out of the residual.
     """
     n = len(x.value)
     at = {label: k for k, label in enumerate(columns)}
@@ -249,5 +243,7 @@ def add_shift(x: Regression, left: Remainder, columns: Sequence[str], projected:
             full = np.zeros(n)
             full[places] = s.shift[known]
             moved += sum((t[:, :n].T @ (t[:, :n] @ full) for t in own), np.zeros(n))
-    shift = x.covariance @ moved
-    return x.stated + np.outer(shift, shift)
+    C = x.covariance
+    V = x.sandwich + C @ C  # with what the prior leaves open: its rows are those of unit
+    wider = np.sqrt(np.maximum(1.0, np.diag(C) / np.maximum(np.diag(V), 1e-300)))
+    return np.asarray(V * np.outer(wider, wider) + np.outer(C @ moved, C @ moved))

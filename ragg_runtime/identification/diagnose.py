@@ -16,7 +16,7 @@ from ragg_runtime.estimation.fitted import Fitted, fit, measure_noise_floor, rel
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.thinning import thin_observations
 from ragg_runtime.identification import next_motion, ranking
-from ragg_runtime.identification.claims import Regression, add_shift
+from ragg_runtime.identification.claims import Regression, estimate_covariance
 from ragg_runtime.identification.consistency import are_far_apart, find_change, find_disagreement
 from ragg_runtime.identification.formula import propose_formulas
 from ragg_runtime.identification.omnibus import Remainder
@@ -161,7 +161,7 @@ def _restate_claims(rows: Sequence[Ranked], found: Conclusion) -> list[Ranked]:
     fitted = [q.label for q in (*o.target.calibration.columns, *(o.target.candidates[k] for k in o.given))]
     columns = [*free.calibration.columns, *(free.candidates[k] for k in given)]
     robust = Regression.of(free, given)
-    covariance = add_shift(robust, found.left, [q.label for q in columns], fitted)
+    covariance = estimate_covariance(robust, found.left, [q.label for q in columns], fitted)
     values = robust.value - robust.absent
     claimed = Estimates(free.model, free.calibration.p, columns, values, covariance)
     return [

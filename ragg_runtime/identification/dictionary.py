@@ -367,7 +367,7 @@ def relax(name: str, r: Record, rows: slice, centre: Mapping[str, float] = NOTHI
 
 def find_term_unit(channels_: Sequence[str]) -> str:
     """Unit of a term's coefficient: V over the units of its channels."""
-    units = [find_channel_unit(c) for c in channels_]
+    units = [u for c in channels_ if (u := find_channel_unit(c)) != "1"]
     return "V" if not units else f"V/({'*'.join(units)})"
 
 

@@ -99,10 +99,6 @@ class Omnibus:
     varying: tuple[ResidualTerm, ...] = ()
     shift: Array | None = None
 
-    @property
-    def significant(self) -> bool:
-        return bool(self.log_p < np.log(FAMILY))
-
 
 class Scores:
     """The dictionary of a flight against its whitened residual, base and chosen effects projected out.
