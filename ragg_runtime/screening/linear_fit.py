@@ -79,8 +79,8 @@ class Rows:
         if not self.sampler.recorded.demodulated:
             return np.arange(len(self.time))
         edge = len(self.sampler.taps) // 2
-        found = edge + np.flatnonzero(self.usable[edge : len(self.usable) - edge])
-        return found[:: max(1, len(found) // TELLING)]
+        rows = edge + np.flatnonzero(self.usable[edge : len(self.usable) - edge])
+        return rows[:: max(1, len(rows) // TELLING)]
 
     def predict(self, p: Array) -> Array:
         """(m, n) V: the output of a model with parameters p, SI, before any demodulation."""
@@ -127,10 +127,10 @@ class Sampler:
         """At most ``most`` usable rows of a segment; neighbours where only the channels are recorded."""
         if self.recorded.demodulated:
             whole = np.arange(first, len(self.usable) if last is None else last)
-            every = len(self.usable) / max(float(np.sum(self.usable)), 1.0)
-            return whole[: max(most, len(self.taps) + max(2 * len(self.taps), round(WANTED * every)))]
-        there = np.flatnonzero(self.usable[first:last]) + first
-        return there[np.linspace(0, len(there) - 1, min(most, len(there))).astype(np.intp)]
+            spacing = len(self.usable) / max(float(np.sum(self.usable)), 1.0)
+            return whole[: max(most, len(self.taps) + max(2 * len(self.taps), round(WANTED * spacing)))]
+        positions = np.flatnonzero(self.usable[first:last]) + first
+        return positions[np.linspace(0, len(positions) - 1, min(most, len(positions))).astype(np.intp)]
 
     def take(
         self,
@@ -201,7 +201,7 @@ def make_sampler(model: Model, instrument: Instrument, flight: Flight, place: in
     usable = flight.valid & np.isfinite([flight.outputs[name] for name in columns]).all(axis=0)
     if output.name in flight.outputs and usable.any():
         usable &= ~clipped(flight.outputs[output.name], usable)
-    how = flight.demodulation or instrument.demodulation or OURS
+    demodulation = flight.demodulation or instrument.demodulation or OURS
     whole = record(flight, instrument, place)
     asked = (n for n in model.chain.INPUTS if strip_derivative(n) != n)
     return Sampler(
@@ -213,7 +213,7 @@ def make_sampler(model: Model, instrument: Instrument, flight: Flight, place: in
         columns=columns,
         usable=usable,
         derived={n: x for n in asked if (x := whole.series(n)) is not None},
-        taps=make_kernel(how, flight.rate).centred if form.demodulated else np.zeros(0),
+        taps=make_kernel(demodulation, flight.rate).centred if form.demodulated else np.zeros(0),
     )
 
 
@@ -289,9 +289,9 @@ def fit_rows(rows: Rows) -> LinearFit:
     theta, kept, volume = fit_robustly(X, y)
     size = rows.data[:, rows.inner] / scale_factor(s.model, p, s.place)
     size = (size - np.mean(size, axis=1, keepdims=True)).reshape(-1)
-    own = list_columns(s)
-    moves = theta[: len(own)]
-    for (column, place), move in zip(own, moves, strict=True):
+    columns = list_columns(s)
+    moves = theta[: len(columns)]
+    for (column, place), move in zip(columns, moves, strict=True):
         p[place] += move * column.scale
     return LinearFit(
         rms=float(np.sqrt(np.mean((y - theta @ X)[kept] ** 2))),
@@ -314,10 +314,10 @@ def linearise(rows: Rows) -> tuple[Array, Array]:
     output less the model at the sheet's values, (m, rows), Eo, of those of the rows that are fitted.
     """
     s, p = rows.sampler, make_vector(rows.sampler.model, rows.sampler.instrument)
-    nominal, own = rows.predict(p), [c for c, _ in list_columns(s)]
-    columns = np.zeros((len(own), *nominal.shape))
+    nominal, parameters = rows.predict(p), [c for c, _ in list_columns(s)]
+    columns = np.zeros((len(parameters), *nominal.shape))
     where = (rows.time, rows.inputs, rows.phi)
-    put_derivatives(columns, s.model.chain, own, where, p, s.recorded, s.output)
+    put_derivatives(columns, s.model.chain, parameters, where, p, s.recorded, s.output)
     eotvos = scale_factor(s.model, p, s.place)
     gradient = () if rows.gradient_recorded else (_make_gradient(rows),)
     X, y = rows.seen(np.concatenate([columns / eotvos, *gradient])), rows.data - rows.seen(nominal)
@@ -343,9 +343,9 @@ def find_least(cost: Callable[[float], float], grid: NDArray[np.floating[Any]], 
     return best
 
 
-def find_inliers(left: Array) -> NDArray[np.bool_]:
+def find_inliers(residual: Array) -> NDArray[np.bool_]:
     """Which of the moduli of some residuals, (..., rows), are no outliers."""
-    return np.asarray(left <= OUTLIER * float(np.quantile(left, QUARTILE)) / QUARTILE_OF_NORMAL)
+    return np.asarray(residual <= OUTLIER * float(np.quantile(residual, QUARTILE)) / QUARTILE_OF_NORMAL)
 
 
 def fit_robustly(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_], float]:
@@ -353,11 +353,11 @@ def fit_robustly(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_], float]:
     kept = np.ones(len(y), dtype=np.bool_)
     theta, volume = fit_shrunken(X, y)
     for _ in range(10):
-        left = np.abs(y - theta @ X)
-        now = find_inliers(left)
-        if np.array_equal(now, kept) or np.sum(now) < 2 * len(X):
+        residual = np.abs(y - theta @ X)
+        inliers = find_inliers(residual)
+        if np.array_equal(inliers, kept) or np.sum(inliers) < 2 * len(X):
             break
-        kept = now
+        kept = inliers
         theta, volume = fit_shrunken(X[:, kept], y[kept])
     return theta, kept, volume
 
@@ -371,13 +371,13 @@ def fit_shrunken(X: Array, y: Array) -> tuple[Array, float]:
     n = len(X)
     U, s, Vt = np.linalg.svd(R[:n, :n])
     d = U.T @ R[:n, n]
-    rest = float(R[n, n] ** 2)
+    unexplained = float(R[n, n] ** 2)
     noise = max(float(np.mean(y**2)), 1e-30)
     for _ in range(200):
-        left = d * noise / (s**2 + noise)
-        found = max((float(np.sum(left**2)) + rest) / len(y), 1e-30)
-        if found > SETTLED * noise:
+        residual = d * noise / (s**2 + noise)
+        estimate = max((float(np.sum(residual**2)) + unexplained) / len(y), 1e-30)
+        if estimate > SETTLED * noise:
             break
-        noise = found
+        noise = estimate
     volume = 0.5 * float(np.sum(np.log1p(s**2 * INDEPENDENT / (len(y) * noise))))
     return np.asarray(Vt.T @ (d * s / (s**2 + noise))), volume

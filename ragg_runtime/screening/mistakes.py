@@ -70,28 +70,28 @@ def find_mistake(s: Sampler) -> Finding | None:
     before = fit_rows(s.take())
     if before.rms < SUSPICIOUS and before.surprise < SURPRISING and before.kept > 1.0 - RARE:
         return None
-    tried = [*_sheets(s), *_columns(s), *timing.propose_times(s)]
+    hypotheses = [*_propose_sheets(s), *_propose_columns(s), *timing.propose_times(s)]
     parts: list[Hypothesis] = []
     if (before.kept < 1.0 - RARE or before.share > timing.LARGE) and not s.recorded.demodulated:
         parts = timing.propose_parts(s)
-    found = _choose(before, [*tried, *parts])
-    if found is None and parts:  # few enough rows for a robust fit to have passed over them
-        found = Finding(parts[0], (), before)
-    if not s.recorded.demodulated or (found is not None and found.factor > 5.0):
-        return found
-    return _choose(before, [*tried, _propose_demodulator(s)])  # takes a while: if nothing else would do
+    finding = _choose(before, [*hypotheses, *parts])
+    if finding is None and parts:  # few enough rows for a robust fit to have passed over them
+        finding = Finding(parts[0], (), before)
+    if not s.recorded.demodulated or (finding is not None and finding.factor > 5.0):
+        return finding
+    return _choose(before, [*hypotheses, _propose_demodulator(s)])  # takes a while: if nothing else would do
 
 
-def _choose(before: LinearFit, tried: Sequence[Hypothesis]) -> Finding | None:
+def _choose(before: LinearFit, hypotheses: Sequence[Hypothesis]) -> Finding | None:
     """The best hypothesis that is clearly better than the record as it is and than a model that predicts nothing.
 
     A record is not taken to be wrong where wider priors explain it as it is.
     """
-    sheets = [h.fitted.score for h in tried if h.kind == "sheet"]
-    stands = min(before.score, 0.0) - NAMED
-    limit = min([stands, *(score - AS_GOOD for score in sheets)])
-    order = sorted(((h.score(before), h) for h in tried), key=lambda x: x[0])
-    order = [(score, h) for score, h in order if score <= (stands if h.kind == "sheet" else limit)]
+    sheets = [h.fitted.score for h in hypotheses if h.kind == "sheet"]
+    threshold = min(before.score, 0.0) - NAMED
+    limit = min([threshold, *(score - AS_GOOD for score in sheets)])
+    order = sorted(((h.score(before), h) for h in hypotheses), key=lambda x: x[0])
+    order = [(score, h) for score, h in order if score <= (threshold if h.kind == "sheet" else limit)]
     if not order:
         return None
     least, best = order[0]
@@ -102,10 +102,10 @@ def _choose(before: LinearFit, tried: Sequence[Hypothesis]) -> Finding | None:
 # --- a sheet with priors that are too narrow ------------------------------------------------------------
 
 
-def _sheets(s: Sampler) -> Iterator[Hypothesis]:
+def _propose_sheets(s: Sampler) -> Iterator[Hypothesis]:
     """Sheets that are less sure of the scale factors, of everything, or of both."""
-    instrument, every = s.instrument, {q.name: WIDE for q in PARAMETERS}
-    for factors in ({"K1": WIDE_K1}, every, {**every, "K1": WIDE_K1}):
+    instrument, everything = s.instrument, {q.name: WIDE for q in PARAMETERS}
+    for factors in ({"K1": WIDE_K1}, everything, {**everything, "K1": WIDE_K1}):
         widths = {
             q.name: max(1.0, factors[q.name] * float(np.median(usual / instrument.sigma(q.name))))
             for q in PARAMETERS
@@ -115,7 +115,7 @@ def _sheets(s: Sampler) -> Iterator[Hypothesis]:
         wider = replace(instrument, widths={**instrument.widths, **widths})
         fitted = fit_rows(replace(s, instrument=wider).take())
         yield Hypothesis(
-            what=f"the test sheet is too confident: {_farthest(s, fitted)}",
+            what=f"the test sheet is too confident: {_describe_farthest(s, fitted)}",
             remedy="check it, or give the parameter a larger sigma in model.toml",
             fitted=fitted,
             kind="sheet",
@@ -123,12 +123,12 @@ def _sheets(s: Sampler) -> Iterator[Hypothesis]:
         )
 
 
-def _farthest(s: Sampler, fitted: LinearFit) -> str:
+def _describe_farthest(s: Sampler, fitted: LinearFit) -> str:
     """The parameters that lie farthest from their sheet, in its sigmas: both values of up to three."""
     sheet = make_vector(s.model, s.instrument)
-    off = [((fitted.p[k] - sheet[k]) / c.scale, c, k) for c, k in list_base_columns(s.model, s.instrument)]
-    off = sorted((x for x in off if x[1].effect is None), key=lambda x: -abs(x[0]))
-    worst = [x for x in off[:3] if abs(x[0]) > abs(off[0][0]) / 10]
+    moves = [((fitted.p[k] - sheet[k]) / c.scale, c, k) for c, k in list_base_columns(s.model, s.instrument)]
+    moves = sorted((x for x in moves if x[1].effect is None), key=lambda x: -abs(x[0]))
+    worst = [x for x in moves[:3] if abs(x[0]) > abs(moves[0][0]) / 10]
     return ", ".join(
         f"{c.name} of {c.accelerometer_name} is {fitted.p[k] / c.unit_factor:.6g} instead of"
         f" {sheet[k] / c.unit_factor:.6g} +- {c.scale / c.unit_factor:.2g} {c.unit}"
@@ -149,7 +149,7 @@ class ColumnMistake:
     plainness: int = 0  # of mistakes that explain a record equally well the smallest is named first
 
 
-def _columns(s: Sampler) -> list[Hypothesis]:
+def _propose_columns(s: Sampler) -> list[Hypothesis]:
     """The most promising mistakes of unit, sign and axis."""
     rows, few = s.take(), s.take(s.rows(most=FEW))
     rough = [(fit_rows(m.undo(few)).score, m) for m in list_mistakes(rows)]
@@ -160,24 +160,24 @@ def _columns(s: Sampler) -> list[Hypothesis]:
 
 def list_mistakes(rows: Rows) -> Iterator[ColumnMistake]:
     """Every mistake of units, signs, axes and order that such rows may hold."""
-    given = rows.sampler.flight.written or rows.sampler.flight.channels
-    derived = ANGULAR_ACCELERATION[0] not in given  # from the rates, whose mistakes it shares
-    yield from list_channel_mistakes(rows) if rows.sampler.recorded.demodulated else _outputs(rows)
+    written = rows.sampler.flight.written or rows.sampler.flight.channels
+    derived = ANGULAR_ACCELERATION[0] not in written  # from the rates, whose mistakes it shares
+    yield from list_channel_mistakes(rows) if rows.sampler.recorded.demodulated else _propose_outputs(rows)
     for stem in ("a", "omega", *(() if derived else ("omegadot",)), *(["Gamma"] * rows.gradient_recorded)):
         columns = "Gamma" if stem == "Gamma" else ", ".join(f"{stem}_{k}" for k in "xyz")
         first = next(n for n in rows.channels if find_stem(n) == stem)
-        for what, remedy, factor in _in_other_units(rows, columns, first, stem):
+        for what, remedy, factor in _list_units(rows, columns, first, stem):
             if stem == "omega" and derived:
-                yield ColumnMistake(what, remedy, _scaled(("omega", "omegadot"), factor))
+                yield ColumnMistake(what, remedy, _scale(("omega", "omegadot"), factor))
                 continue
-            yield ColumnMistake(what, remedy, _scaled((stem,), factor))
+            yield ColumnMistake(what, remedy, _scale((stem,), factor))
             if stem == "omega":
                 what, remedy = f"{what}, and omegadot likewise", f"{remedy}, and that of omegadot"
-                yield ColumnMistake(what, remedy, _scaled(("omega", "omegadot"), factor), 1)
+                yield ColumnMistake(what, remedy, _scale(("omega", "omegadot"), factor), 1)
     if rows.gradient_recorded:
         remedy = "multiply Gamma by -1: f = a + ... - Gamma r"
-        yield ColumnMistake("the sign of Gamma is reversed", remedy, _scaled(("Gamma",), -1.0))
-    yield from _axes(derived)
+        yield ColumnMistake("the sign of Gamma is reversed", remedy, _scale(("Gamma",), -1.0))
+    yield from _propose_axes(derived)
 
 
 _UNITS = {
@@ -191,20 +191,20 @@ _UNITS = {
 """Units in which quantities may be, SI first."""
 
 
-def _in_other_units(rows: Rows, columns: str, first: str, quantity: str) -> Iterator[tuple[str, str, float]]:
+def _list_units(rows: Rows, columns: str, first: str, quantity: str) -> Iterator[tuple[str, str, float]]:
     """What, remedy and factor of other units that may be meant than that which the file gives to the ``first`` of some columns."""
-    known, possible = rows.sampler.instrument.units, _UNITS[quantity]
-    given = rows.sampler.flight.written.get(first, possible[0])
-    here, factors = float(known.to_si(1.0, given, possible[0])), [1.0]
+    units, possible = rows.sampler.instrument.units, _UNITS[quantity]
+    file_unit = rows.sampler.flight.written.get(first, possible[0])
+    size, factors = float(units.to_si(1.0, file_unit, possible[0])), [1.0]
     verb = "are" if "," in columns or " and " in columns or "..." in columns else "is"
     for unit in possible:
-        factor = float(known.to_si(1.0, unit, possible[0])) / here
+        factor = float(units.to_si(1.0, unit, possible[0])) / size
         if all(abs(factor / f - 1) > 1e-9 for f in factors):
             factors.append(factor)
-            yield f"{columns} {verb} in {unit}, not in {given}", f"write the unit [{unit}]", factor
+            yield f"{columns} {verb} in {unit}, not in {file_unit}", f"write the unit [{unit}]", factor
 
 
-def _scaled(stems: tuple[str, ...], factor: float) -> Callable[[Rows], Rows]:
+def _scale(stems: tuple[str, ...], factor: float) -> Callable[[Rows], Rows]:
     def undo(rows: Rows) -> Rows:
         changed = {n: factor * x for n, x in rows.channels.items() if find_stem(n) in stems}
         return replace(rows, channels={**rows.channels, **changed})
@@ -212,27 +212,27 @@ def _scaled(stems: tuple[str, ...], factor: float) -> Callable[[Rows], Rows]:
     return undo
 
 
-def _mixed(factors: Array) -> Callable[[Rows], Rows]:
+def _mix(factors: Array) -> Callable[[Rows], Rows]:
     """The output's series (m, n) times factors (m, m)."""
     return lambda rows: replace(rows, data=factors @ rows.data)
 
 
-def _outputs(rows: Rows) -> Iterator[ColumnMistake]:
+def _propose_outputs(rows: Rows) -> Iterator[ColumnMistake]:
     names = rows.sampler.columns
     what = names[0] if len(names) == 1 else f"{names[0]} ... {names[-1]}"
     one = np.eye(len(names))
-    yield ColumnMistake(f"the sign of {what} is reversed", f"multiply {what} by -1", _mixed(-one))
-    for text, remedy, factor in _in_other_units(rows, what, names[0], "G"):
-        yield ColumnMistake(text, remedy, _mixed(factor * one))
-    for order in _orders(len(names)):
+    yield ColumnMistake(f"the sign of {what} is reversed", f"multiply {what} by -1", _mix(-one))
+    for text, remedy, factor in _list_units(rows, what, names[0], "G"):
+        yield ColumnMistake(text, remedy, _mix(factor * one))
+    for order in _list_orders(len(names)):
         swapped = [k for k, was in enumerate(order) if was != k]
         text = f"the order of {', '.join(names)} is {', '.join(names[k] for k in order)}"
         if len(swapped) == 2:
             text = f"{names[swapped[0]]} and {names[swapped[1]]} are exchanged"
-        yield ColumnMistake(text, "exchange the names of the columns", _mixed(one[list(order)]), len(swapped))
+        yield ColumnMistake(text, "exchange the names of the columns", _mix(one[list(order)]), len(swapped))
 
 
-def _orders(count: int) -> Iterator[tuple[int, ...]]:
+def _list_orders(count: int) -> Iterator[tuple[int, ...]]:
     """Orders in which voltages may be listed by mistake: any of up to four, of more those with two exchanged."""
     straight = tuple(range(count))
     if count <= 4:
@@ -247,20 +247,20 @@ FACTORS = (1.0, -1.0, 2.0, -2.0, 0.5, -0.5)
 
 def list_channel_mistakes(rows: Rows) -> Iterator[ColumnMistake]:
     """Inline and cross with other units, names, signs or factors than Gamma_xx - Gamma_yy and Gamma_xy."""
-    for text, remedy, factor in _in_other_units(rows, "inline and cross", "inline", "inline"):
-        yield ColumnMistake(text, remedy, _mixed(factor * np.eye(2)))
+    for text, remedy, factor in _list_units(rows, "inline and cross", "inline", "inline"):
+        yield ColumnMistake(text, remedy, _mix(factor * np.eye(2)))
     exchanged = np.array([[0.0, -0.5], [-2.0, 0.0]])
-    yield ColumnMistake("inline and cross are exchanged", "exchange their names", _mixed(exchanged), 1)
-    meant = {"inline": "Gamma_xx - Gamma_yy", "cross": "Gamma_xy"}
+    yield ColumnMistake("inline and cross are exchanged", "exchange their names", _mix(exchanged), 1)
+    definitions = {"inline": "Gamma_xx - Gamma_yy", "cross": "Gamma_xy"}
     for factors in product(FACTORS, FACTORS):
-        changed = [(n, x) for n, x in zip(meant, factors, strict=True) if x != 1.0]
+        changed = [(n, x) for n, x in zip(definitions, factors, strict=True) if x != 1.0]
         if changed:
-            what = "; ".join(f"{n} is {1 / x:g} times {meant[n]}" for n, x in changed)
+            what = "; ".join(f"{n} is {1 / x:g} times {definitions[n]}" for n, x in changed)
             remedy = ", ".join(f"multiply {n} by {x:g}" for n, x in changed)
-            yield ColumnMistake(what, remedy, _mixed(np.diag(factors)), 2 * len(changed))
+            yield ColumnMistake(what, remedy, _mix(np.diag(factors)), 2 * len(changed))
 
 
-def _axes(derived: bool) -> Iterator[ColumnMistake]:
+def _propose_axes(derived: bool) -> Iterator[ColumnMistake]:
     both: tuple[str, ...] = ("omega", "omegadot")
     groups = [(("a",), 0), (both, 0), (("a", *both), 1), *([] if derived else [(("omega",), 1)])]
     for (group, more), order, signs in product(groups, permutations(range(3)), product((1, -1), repeat=3)):
@@ -268,32 +268,32 @@ def _axes(derived: bool) -> Iterator[ColumnMistake]:
             continue
         moved, flips = sum(order[k] != k for k in range(3)), sum(s < 0 for s in signs)
         yield ColumnMistake(
-            "; ".join(_axes_in_words(q, order, signs) for q in group if q != "omegadot"),
+            "; ".join(_describe_axes(q, order, signs) for q in group if q != "omegadot"),
             "exchange the names of the columns or the signs, or rotate the record into the measurement frame",
-            partial(_turned, group=group, order=order, signs=signs),
+            partial(_turn, group=group, order=order, signs=signs),
             2 * moved + 2 * flips + more,
         )
 
 
-def _axes_in_words(stem: str, order: tuple[int, ...], signs: tuple[int, ...]) -> str:
+def _describe_axes(stem: str, order: tuple[int, ...], signs: tuple[int, ...]) -> str:
     """Which columns hold which component."""
-    own = [f"{stem}_{k}" for k in "xyz"]
-    flipped = [own[k] for k in range(3) if signs[k] < 0]
-    moved = [own[k] for k in range(3) if order[k] != k]
+    names = [f"{stem}_{k}" for k in "xyz"]
+    flipped = [names[k] for k in range(3) if signs[k] < 0]
+    moved = [names[k] for k in range(3) if order[k] != k]
     if not moved:
         return f"{' and '.join(flipped)} {'have' if len(flipped) > 1 else 'has'} the wrong sign"
     if not flipped and len(moved) == 2:
         return f"{moved[0]} and {moved[1]} are exchanged"
-    found = [f"{'-' if s < 0 else ''}{own[k]}" for k, s in zip(order, signs, strict=True)]
-    return f"{', '.join(own)} are in the columns {', '.join(found)}"
+    sources = [f"{'-' if s < 0 else ''}{names[k]}" for k, s in zip(order, signs, strict=True)]
+    return f"{', '.join(names)} are in the columns {', '.join(sources)}"
 
 
-def _turned(rows: Rows, group: tuple[str, ...], order: tuple[int, ...], signs: tuple[int, ...]) -> Rows:
+def _turn(rows: Rows, group: tuple[str, ...], order: tuple[int, ...], signs: tuple[int, ...]) -> Rows:
     changed: dict[str, Array] = {}
     for prefix, q in product(("", "d_", "d2_"), group):
-        own = [f"{prefix}{q}_{k}" for k in "xyz"]
-        if all(n in rows.channels for n in own):
-            changed |= {own[k]: signs[k] * rows.channels[own[order[k]]] for k in range(3)}
+        names = [f"{prefix}{q}_{k}" for k in "xyz"]
+        if all(n in rows.channels for n in names):
+            changed |= {names[k]: signs[k] * rows.channels[names[order[k]]] for k in range(3)}
     return replace(rows, channels={**rows.channels, **changed})
 
 
@@ -315,8 +315,8 @@ def _propose_demodulator(s: Sampler) -> Hypothesis:
     """The low-pass, of those that people use, with which the model leaves least of inline and cross."""
     rows, rate, half = s.take(), s.flight.rate, len(s.taps) // 2
 
-    def fit(how: Demodulation) -> LinearFit:
-        taps = make_kernel(how, rate).centred
+    def fit(d: Demodulation) -> LinearFit:
+        taps = make_kernel(d, rate).centred
         spare = len(taps) // 2 - half
         taps = taps[spare:-spare] if spare > 0 else np.pad(taps, -spare)
         return fit_rows(replace(rows, sampler=replace(s, taps=taps)))
@@ -326,12 +326,12 @@ def _propose_demodulator(s: Sampler) -> Hypothesis:
         return low_pass(float(np.exp(find_least(lambda x: fit(low_pass(np.exp(x))).share, grid, FINE))))
 
     none = Demodulation(kind="none")
-    made = starmap(find_corner, list_low_passes()) if rate / 4 > LOWEST else ()
-    tried = [(fit(how), how) for how in (none, *made)]
-    best, how = min(tried, key=lambda x: x[0].share / (CLEARLY if x[1] is none else 1.0))
-    words = "have passed" if how.kind == "none" else "were made by another demodulator, such as"
-    remedy = f"if so, describe it in model.toml or in a mapping: [demodulator] {how.toml()}; else record G_out itself"
-    return Hypothesis(f"inline and cross {words} {how.words()}", remedy, best, timing.COST, calming=True)
+    low_passes = starmap(find_corner, list_low_passes()) if rate / 4 > LOWEST else ()
+    fits = [(fit(d), d) for d in (none, *low_passes)]
+    best, d = min(fits, key=lambda x: x[0].share / (CLEARLY if x[1] is none else 1.0))
+    words = "have passed" if d.kind == "none" else "were made by another demodulator, such as"
+    remedy = f"if so, describe it in model.toml or in a mapping: [demodulator] {d.toml()}; else record G_out itself"
+    return Hypothesis(f"inline and cross {words} {d.words()}", remedy, best, timing.COST, calming=True)
 
 
 def list_low_passes() -> Iterator[tuple[Callable[[float], Demodulation], int]]:

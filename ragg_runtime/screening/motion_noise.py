@@ -69,13 +69,13 @@ class MotionNoise:
     step: float
 
 
-def measure_noise(x: Array, there: Mask) -> MotionNoise:
+def measure_noise(x: Array, present: Mask) -> MotionNoise:
     """What the steps of a converter make of a column (N,), or the floor of its spectrum, if it has a flat one, whichever is more.
 
     The floor is an upper bound, as motion may have one, too.
     """
-    step = find_step(x[there]) or 0.0
-    bands = np.array_split(_measure_spectrum(x, there).density[2:-1], BANDS)
+    step = find_step(x[present]) or 0.0
+    bands = np.array_split(_measure_spectrum(x, present).density[2:-1], BANDS)
     lowest, next_one = sorted(float(np.mean(b)) for b in bands if len(b))[:2]
     floor = float(np.sqrt(0.5 * lowest)) if next_one < FLAT * lowest else 0.0
     return MotionNoise(max(step / float(np.sqrt(12.0)), floor), step)
@@ -90,14 +90,14 @@ class _Spectrum:
     scatter: float
 
 
-def _measure_spectrum(x: Array, there: Mask) -> _Spectrum:
-    """Of a column (N,) of which some samples are ``there``: by all stretches in which a few at most are missing at a time."""
-    whole = there | find_short_runs(~there, WIDEST_SPIKE)
+def _measure_spectrum(x: Array, present: Mask) -> _Spectrum:
+    """Of a column (N,) of which some samples are ``present``: by all stretches in which a few at most are missing at a time."""
+    whole = present | find_short_runs(~present, WIDEST_SPIKE)
     lengths = np.array([r.stop - r.start for r in runs(whole)])
     window = WINDOW
     while window > 8 and np.sum(lengths[lengths >= window]) < max(8 * window, 0.5 * np.sum(lengths)):
         window //= 2
-    filled, parts = predict_missing(x, there), runs(whole, window)
+    filled, parts = predict_missing(x, present), runs(whole, window)
     share = np.array([r.stop - r.start for r in parts], dtype=np.float64)
     density = np.average([_average_windows(filled[r], window) for r in parts], axis=0, weights=share)
     smoothed = np.convolve(np.pad(density, 1, mode="edge"), TRIANGLE, mode="valid")
@@ -118,28 +118,28 @@ def smooth_noisy_motion(s: Sampler) -> Flight:
 
     That a floor is noise is a hypothesis: with motion smoothed that is none, the model explains less of the output.
     """
-    there = s.flight.valid
-    if not runs(there, PREDICTED + 1):
+    valid = s.flight.valid
+    if not runs(valid, PREDICTED + 1):
         return s.flight  # of motion that is held at a lower rate, for example, nothing can be told
-    left = fit_rows(s.take())
+    before = fit_rows(s.take())
     for names in (SPECIFIC_FORCE, ANGULAR_RATE, ANGULAR_ACCELERATION, GRADIENT):
         if names is ANGULAR_ACCELERATION and names[0] not in s.flight.written:
             continue  # derived from the rates
         x, rng = s.flight.channels, np.random.default_rng(0)
-        noise = {n: q for n in names if n in x and (q := measure_noise(x[n], there)).std > 0.0}
-        noisier = {n: x[n] + q.std * rng.standard_normal(len(there)) for n, q in noise.items()}
-        if not noise or _compare(left.p, s, _change(s, noisier)) < NOTICED * left.rms:
+        noise = {n: q for n in names if n in x and (q := measure_noise(x[n], valid)).std > 0.0}
+        noisier = {n: x[n] + q.std * rng.standard_normal(len(valid)) for n, q in noise.items()}
+        if not noise or _compare(before.p, s, _change(s, noisier)) < NOTICED * before.rms:
             continue
-        smoothed = _change(s, {n: predict_true(x[n], there, q.std) for n, q in noise.items()})
+        smoothed = _change(s, {n: predict_true(x[n], valid, q.std) for n, q in noise.items()})
         after = fit_rows(smoothed.take())
-        if after.rms >= FALLS * left.rms:
+        if after.rms >= FALLS * before.rms:
             continue
-        flag = _describe(s, noise, left.rms, after.rms)
-        if names is GRADIENT and after.rms < MOSTLY * left.rms:
-            known = {n: v for n, v in x.items() if n not in GRADIENT}
+        flag = _describe(s, noise, before.rms, after.rms)
+        if names is GRADIENT and after.rms < MOSTLY * before.rms:
+            channels = {n: v for n, v in x.items() if n not in GRADIENT}
             text = f"{flag.reason}; it is not used but taken to be unknown and to vary slowly"
-            return replace(s.flight, channels=known).flagged([replace(flag, reason=text)])
-        s, left = replace(smoothed, flight=smoothed.flight.flagged([flag])), after
+            return replace(s.flight, channels=channels).flagged([replace(flag, reason=text)])
+        s, before = replace(smoothed, flight=smoothed.flight.flagged([flag])), after
     return s.flight
 
 
@@ -157,54 +157,54 @@ def _change(s: Sampler, columns: Mapping[str, Array]) -> Sampler:
     return s.with_flight(change_columns(s.flight, columns))
 
 
-def predict_true(x: Array, there: Mask, std: float) -> Array:
-    """The best linear prediction of a column (N,) without its white noise, everywhere, from its samples that are ``there`` (N,).
+def predict_true(x: Array, present: Mask, std: float) -> Array:
+    """The best linear prediction of a column (N,) without its white noise, everywhere, from its samples that are ``present`` (N,).
 
     It is B C^-1 x, C the covariance of the measured column, B that of the true one with it: with the ends and gaps that the record has.
     """
-    found = np.array(x)
-    spectrum = _measure_spectrum(x, there)
+    prediction = np.array(x)
+    spectrum = _measure_spectrum(x, present)
     for block in np.array_split(np.arange(len(x)), -(-len(x) // BLOCK)):
-        rows = block[there[block]]
+        rows = block[present[block]]
         if len(rows) > 2:
-            found[block] = _predict_block(x[rows], rows - block[0], len(block), std, spectrum)
-    return found
+            prediction[block] = _predict_block(x[rows], rows - block[0], len(block), std, spectrum)
+    return prediction
 
 
 def _predict_block(x: Array, at: NDArray[np.intp], count: int, std: float, q: _Spectrum) -> Array:
     """(count,): the prediction for a block of which samples x (n,) at some rows are there."""
     white = 2.0 * std**2  # one-sided, per cycle per sample
-    surely = q.density > white * (1.0 + SURE * q.scatter)
+    certain = q.density > white * (1.0 + SURE * q.scatter)
     size = fft.next_fast_len(2 * count, real=True)
-    S = np.interp(fft.rfftfreq(size), q.f, np.where(surely, q.density / white, 1.0))
+    S = np.interp(fft.rfftfreq(size), q.f, np.where(certain, q.density / white, 1.0))
 
-    def filtered(gain: Array, v: Array) -> Array:
+    def filter_by(gain: Array, v: Array) -> Array:
         whole = np.zeros(size)
         whole[at] = v
         return np.asarray(fft.irfft(fft.rfft(whole) * gain, size))
 
-    def operator(gain: Array) -> LinearOperator:
-        return LinearOperator((len(at), len(at)), lambda v: filtered(gain, v)[at], dtype=np.float64)
+    def make_operator(gain: Array) -> LinearOperator:
+        return LinearOperator((len(at), len(at)), lambda v: filter_by(gain, v)[at], dtype=np.float64)
 
     trend = np.polynomial.Polynomial.fit(at, x, 1)
     whitened, _ = cg(
-        operator(S),
+        make_operator(S),
         (x - trend(at)) / std,
         rtol=0.0,
         atol=CLOSE * np.sqrt(len(at)),
-        M=operator(1.0 / S),
+        M=make_operator(1.0 / S),
         maxiter=MOST,
     )
-    return np.asarray(trend(np.arange(count)) + std * filtered(S - 1.0, whitened)[:count])
+    return np.asarray(trend(np.arange(count)) + std * filter_by(S - 1.0, whitened)[:count])
 
 
 def _describe(s: Sampler, noise: Mapping[str, MotionNoise], before: float, after: float) -> Flag:
-    x, known = s.flight, s.instrument.units
+    x, units = s.flight, s.instrument.units
     loudest = max(noise, key=lambda n: noise[n].std)
     q, gradient = noise[loudest], loudest in GRADIENT
     stepped = q.step / np.sqrt(12.0) > 0.5 * q.std
     unit = "Eo" if gradient else x.written.get(loudest, x.units[loudest])
-    size = (q.step if stepped else q.std) / float(known.to_si(1.0, unit, x.units[loudest]))
+    size = (q.step if stepped else q.std) / float(units.to_si(1.0, unit, x.units[loudest]))
     size, unit = (1e3 * size, f"m{unit}") if unit == "g" else (size, unit)
     verb, have = ("is", "has") if len(noise) == 1 else ("are", "have")
     what = (

@@ -65,11 +65,11 @@ def find_spikes(residual: Array, valid: Mask) -> Mask:
     -------
     (N,) array of bool
     """
-    found = np.zeros(len(residual), dtype=np.bool_)
-    there = valid & np.isfinite(residual)
-    e = residual[there]
+    spikes = np.zeros(len(residual), dtype=np.bool_)
+    present = valid & np.isfinite(residual)
+    e = residual[present]
     if len(e) < 8 * SIDE:
-        return found
+        return spikes
     reach = SIDE // 2 + 1
     median = ndimage.median_filter(np.pad(e, reach, mode="reflect"), SIDE, mode="mirror")
     before, after = median[: -2 * reach], median[2 * reach :]
@@ -77,14 +77,14 @@ def find_spikes(residual: Array, valid: Mask) -> Mask:
     distance[np.abs(after - before) > STEP * distance] = 0.0  # a step
     scatter = np.abs(e - (before + after) / 2)
     everywhere = np.quantile(scatter, USUAL)
-    far = distance > FAR * np.maximum(_in_blocks(scatter, USUAL), everywhere)
+    far = distance > FAR * np.maximum(_find_block_quantiles(scatter, USUAL), everywhere)
     far = find_short_runs(far, WIDEST_SPIKE)
     if everywhere > 0 and np.mean(far) <= MOST:
-        found[there] = far
-    return found
+        spikes[present] = far
+    return spikes
 
 
-def _in_blocks(x: Array, q: float) -> Array:
+def _find_block_quantiles(x: Array, q: float) -> Array:
     """(N,): the largest quantile of each sample's own block and its neighbours."""
     size = min(BLOCK, len(x))
     whole = len(x) // size  # what is left over is too short to speak for itself
@@ -139,28 +139,28 @@ def find_glitches(x: Array, valid: Mask) -> tuple[Mask, Array]:
     either side) by ``GLITCH`` times the usual error of that, and by more than twice the range of everything
     within a dozen samples. The largest go first, since they distort the prediction of the others.
     """
-    found, there = np.zeros(len(x), dtype=np.bool_), np.isfinite(x)
-    if np.sum(valid & there) < 8 * SIDE:
-        return found, x
+    glitches, present = np.zeros(len(x), dtype=np.bool_), np.isfinite(x)
+    if np.sum(valid & present) < 8 * SIDE:
+        return glitches, x
     # also in samples that are not used, since filters and derivatives of the record reach into them
-    found[there], mended = _glitches(x[there])
-    if not found.any() or np.mean(found[valid]) > MOST:
-        return np.zeros_like(found), x
+    glitches[present], mended = _separate_glitches(x[present])
+    if not glitches.any() or np.mean(glitches[valid]) > MOST:
+        return np.zeros_like(glitches), x
     whole = np.array(x)
-    whole[there] = mended
-    return found, whole
+    whole[present] = mended
+    return glitches, whole
 
 
 def find_spikes_of_slow(x: Array) -> tuple[Mask, Array]:
     """Spikes of an auxiliary channel (N,) that is slow without them, and the channel with them interpolated, as where it has no value."""
-    there = np.isfinite(x)
-    found = find_spikes(x, there)
-    mended = bridge_gaps(x, there & ~found)
+    present = np.isfinite(x)
+    spikes = find_spikes(x, present)
+    mended = bridge_gaps(x, present & ~spikes)
     if np.std(np.diff(mended)) > SLOW * np.std(mended):
-        return np.zeros_like(found), x
-    at = np.flatnonzero(found)
-    found[at] = np.abs(x[at] - mended[at]) > 2 * _spread(mended, at)
-    return found, np.where(found, mended, x)
+        return np.zeros_like(spikes), x
+    at = np.flatnonzero(spikes)
+    spikes[at] = np.abs(x[at] - mended[at]) > 2 * _spread(mended, at)
+    return spikes, np.where(spikes, mended, x)
 
 
 def find_lost_angles(angle: Array, valid: Mask) -> tuple[Mask, Array]:
@@ -178,7 +178,7 @@ def _wrap(angle: Array) -> Array:
     return np.asarray(np.angle(np.exp(1j * angle)))
 
 
-def _glitches(x: Array) -> tuple[Mask, Array]:
+def _separate_glitches(x: Array) -> tuple[Mask, Array]:
     """Glitches of a series without gaps (N,), and the series with them interpolated."""
     # plain ones first, which may be neighbours: the prediction by such would be far off beside them
     off = find_spikes(x, np.ones(len(x), dtype=np.bool_))
@@ -188,8 +188,8 @@ def _glitches(x: Array) -> tuple[Mask, Array]:
         limit = GLITCH * STD_OF_MEDIAN * float(np.median(size))
         at = np.flatnonzero(size > limit)
         if len(at):
-            at = at[size[at] > GLITCH * STD_OF_MEDIAN * _in_blocks(size, 0.5)[at]]
-            at = at[(size[at] > 2 * _spread(y, at)) & (size[at] >= np.max(_about(size, at, 3), axis=1))]
+            at = at[size[at] > GLITCH * STD_OF_MEDIAN * _find_block_quantiles(size, 0.5)[at]]
+            at = at[(size[at] > 2 * _spread(y, at)) & (size[at] >= np.max(_surround(size, at, 3), axis=1))]
         if not len(at):
             break
         off[at] = True
@@ -200,14 +200,14 @@ def _glitches(x: Array) -> tuple[Mask, Array]:
     return off, bridge_gaps(x, ~off, smooth=True)
 
 
-def _about(x: Array, at: NDArray[np.intp], side: int) -> Array:
+def _surround(x: Array, at: NDArray[np.intp], side: int) -> Array:
     """(m, 2 side + 1): a series about some of its samples; beyond its ends it stays what it is there."""
     return np.asarray(x[np.clip(at[:, None] + np.arange(-side, side + 1), 0, len(x) - 1)])
 
 
 def _spread(x: Array, at: NDArray[np.intp]) -> Array:
     """(m,): from the third to the 23rd of the 25 samples about some samples, by size."""
-    ordered = np.sort(_about(x, at, 12), axis=1)
+    ordered = np.sort(_surround(x, at, 12), axis=1)
     return np.asarray(ordered[:, 22] - ordered[:, 2])
 
 
@@ -253,42 +253,42 @@ def leave_out_repeated(flight: Flight) -> Flight:
     Motion is interpolated between what was recorded, and an angular acceleration that was derived is derived anew.
     """
     flight = _take_recorded_rate(flight)
-    columns, valid, known = {**flight.channels, **flight.outputs}, np.array(flight.valid), _find_known(flight)
-    off = np.zeros_like(valid)  # samples that lack a rate
-    found: list[tuple[str, _Repeated]] = []
+    columns, valid, full = {**flight.channels, **flight.outputs}, np.array(flight.valid), _find_full(flight)
+    lacking = np.zeros_like(valid)  # samples that lack a rate
+    repeated: list[tuple[str, _Repeated]] = []
     motion = [n for n in MOTION if n in columns and n in (flight.written or columns)]
     for name in (*flight.outputs, *filter(is_disc_angle, flight.channels), *motion):
         x, turning = np.array(columns[name]), is_disc_angle(name)
-        there = np.isfinite(x) & known
-        r = _repeated(x, there, turning)
+        present = np.isfinite(x) & full
+        r = _find_repeated(x, present, turning)
         if r is None:
             continue
-        found.append((name, r))
-        off |= r.left_out & (name in ANGULAR_RATE and not r.every)
+        repeated.append((name, r))
+        lacking |= r.left_out & (name in ANGULAR_RATE and not r.every)
         if name in flight.outputs:
             columns[name] = np.where(r.left_out, np.nan, x)
             continue
-        columns[name] = bridge_gaps(x, there & ~r.left_out, smooth=r.every > 0, turning=turning)
+        columns[name] = bridge_gaps(x, present & ~r.left_out, smooth=r.every > 0, turning=turning)
         if not r.every or not turning:  # a disc turns smoothly between two angles
             valid &= ~r.left_out
-    slower = {n for n, r in found if r.every}
+    slower = {n for n, r in repeated if r.every}
     for sensor in (SPECIFIC_FORCE, ANGULAR_RATE):
         names = [n for n in sensor if n in columns and n not in slower]
         lost = _find_lost_packets([columns[n] for n in names], valid)
         if lost.any():
-            found += [(n, _Repeated("stuck", lost)) for n in names]
+            repeated += [(n, _Repeated("stuck", lost)) for n in names]
             columns |= {n: bridge_gaps(columns[n], valid & ~lost, smooth=True) for n in names}
             valid &= ~lost
-            off |= lost & (sensor is ANGULAR_RATE)
-    if not found:
+            lacking |= lost & (sensor is ANGULAR_RATE)
+    if not repeated:
         return flight
-    changed = {n: columns[n] for n, _ in found}
-    return change_columns(flight, changed, valid, off).flagged(
-        _flags([(n, r) for n, r in found if np.any(r.left_out & flight.valid)], flight)
+    changed = {n: columns[n] for n, _ in repeated}
+    return change_columns(flight, changed, valid, lacking).flagged(
+        _make_flags([(n, r) for n, r in repeated if np.any(r.left_out & flight.valid)], flight)
     )
 
 
-def _find_known(flight: Flight) -> Mask:
+def _find_full(flight: Flight) -> Mask:
     """(N,): samples with all columns; next to an end or a gap too, where a derivative is not relied upon."""
     if flight.lacking is None or ANGULAR_ACCELERATION[0] in flight.written:
         return flight.valid
@@ -306,15 +306,15 @@ def _take_recorded_rate(flight: Flight) -> Flight:
     names = [n for n in ANGULAR_RATE if n in flight.written]
     if not names or ANGULAR_ACCELERATION[0] in flight.written:
         return flight
-    known = _find_known(flight)
-    slower = [r for n in names if (r := _repeated(flight.channels[n], known, False)) and r.every]
-    kept = np.flatnonzero(known & ~np.any([r.left_out for r in slower], axis=0))
-    every = int(max((r.every for r in slower), default=0))
-    if not slower or not len(kept) or np.any((kept - kept[0]) % every):
+    full = _find_full(flight)
+    slower = [r for n in names if (r := _find_repeated(flight.channels[n], full, False)) and r.every]
+    kept = np.flatnonzero(full & ~np.any([r.left_out for r in slower], axis=0))
+    spacing = int(max((r.every for r in slower), default=0))
+    if not slower or not len(kept) or np.any((kept - kept[0]) % spacing):
         return flight
-    text = f"the motion is recorded every {every / flight.rate:.4g} s and {slower[0].how} in between; the record is used at that rate"
-    taken = flight.part(slice(int(kept[0]) % every, None, every))
-    return derive_acceleration(replace(taken, valid=_find_known(taken))).flagged([Flag(tuple(names), text)])
+    text = f"the motion is recorded every {spacing / flight.rate:.4g} s and {slower[0].how} in between; the record is used at that rate"
+    part = flight.part(slice(int(kept[0]) % spacing, None, spacing))
+    return derive_acceleration(replace(part, valid=_find_full(part))).flagged([Flag(tuple(names), text)])
 
 
 @dataclass(frozen=True)
@@ -328,65 +328,65 @@ class _Repeated:
     every: float = 0.0
 
 
-def _repeated(x: Array, there: Mask, turning: bool) -> _Repeated | None:
+def _find_repeated(x: Array, present: Mask, turning: bool) -> _Repeated | None:
     """What a column (N,), or the angle of a ``turning`` disc, repeats; ``None``: no more than its resolution and noise make."""
-    pairs = there[1:] & there[:-1]
-    if np.sum(there) < FEWEST or not pairs.any():
+    pairs = present[1:] & present[:-1]
+    if np.sum(present) < FEWEST or not pairs.any():
         return None
-    x = np.where(there, x, 0.0)
+    x = np.where(present, x, 0.0)
     equal = pairs & (x[1:] == x[:-1])
     moves = np.abs(np.diff(x))[pairs & ~equal]
     if len(moves) < FEWEST - 1:
         return None  # it does not change at all
-    step = find_step(x[there])
+    step = find_step(x[present])
     coarse = step is not None and np.median(moves) < COARSE * step and not turning
     held = np.sum(equal) >= HELD * np.sum(pairs) and not coarse
     if held and max(r.stop + 1 - r.start for r in runs(equal)) < HELD * len(x):
-        kept = there & ~np.r_[False, equal]
-        return _Repeated("repeated", there & ~kept, float(np.median(np.diff(np.flatnonzero(kept)))))
-    joined = None if turning else _joined(x, there)  # the angle of a disc is a line
+        kept = present & ~np.r_[False, equal]
+        return _Repeated("repeated", present & ~kept, float(np.median(np.diff(np.flatnonzero(kept)))))
+    joined = None if turning else _find_joined(x, present)  # the angle of a disc is a line
     if joined is not None:
         return joined
-    stuck = _stuck(x, there, equal, step or 0.0, turning)
-    lines = _find_lines(x, there, step or 0.0) & ~(stuck | turning | coarse)
+    stuck = _find_stuck(x, present, equal, step or 0.0, turning)
+    lines = _find_lines(x, present, step or 0.0) & ~(stuck | turning | coarse)
     found = _Repeated("interpolated" if lines.any() else "stuck", stuck | lines)
     return found if found.left_out.any() else None
 
 
-def _find_lost_packets(axes: Sequence[Array], there: Mask) -> Mask:
+def _find_lost_packets(axes: Sequence[Array], present: Mask) -> Mask:
     """(N,): samples at which all axes of a sensor repeat their values, or are zero: more than chance makes, each axis by itself."""
-    lost = np.zeros(len(there), dtype=np.bool_)
-    changing = [x for x in axes if np.any(x[there] != x[there][0])] if there.any() else []
+    lost = np.zeros(len(present), dtype=np.bool_)
+    changing = [x for x in axes if np.any(x[present] != x[present][0])] if present.any() else []
     if len(changing) < 2:
         return lost
-    before = there & np.r_[False, there[:-1]]
+    before = present & np.r_[False, present[:-1]]
     repeats = [before & np.r_[False, x[1:] == x[:-1]] for x in changing]
-    for marks in (np.array(repeats), np.array([there & (x == 0.0) for x in changing])):
+    for marks in (np.array(repeats), np.array([present & (x == 0.0) for x in changing])):
         together = np.all(marks, axis=0)
-        alone = (np.sum(marks & ~together, axis=1) + 1) / (len(there) + 2)
-        if len(there) * np.prod(alone) < RARE_ZEROS and np.mean(together) < HELD:
+        alone = (np.sum(marks & ~together, axis=1) + 1) / (len(present) + 2)
+        if len(present) * np.prod(alone) < RARE_ZEROS and np.mean(together) < HELD:
             lost |= together
     return lost
 
 
-def _joined(x: Array, there: Mask) -> _Repeated | None:
+def _find_joined(x: Array, present: Mask) -> _Repeated | None:
     """Values recorded every so many samples, and joined by straight lines."""
-    pairs = there[1:] & there[:-1]
+    pairs = present[1:] & present[:-1]
     threes = pairs[1:] & pairs[:-1]
     bend = np.where(threes, np.abs(np.diff(x, 2)), 0.0)
     sharp = bend > STRAIGHT * float(np.sqrt(np.mean(bend**2)))
     if not 0 < 3 * np.sum(sharp) <= 2 * np.sum(threes):
         return None
     recorded = np.flatnonzero(sharp) + 1
-    every = int(np.median(np.diff(recorded))) if len(recorded) >= FEWEST else 1
+    spacing = int(np.median(np.diff(recorded))) if len(recorded) >= FEWEST else 1
     first = recorded[len(recorded) // 2]
-    if every < 2 or np.mean(recorded % every == first % every) < REGULAR:
+    if spacing < 2 or np.mean(recorded % spacing == first % spacing) < REGULAR:
         return None
-    kept = np.arange(len(x)) % every == first % every
-    return _Repeated("joined by straight lines", there & ~kept, float(every))
+    kept = np.arange(len(x)) % spacing == first % spacing
+    return _Repeated("joined by straight lines", present & ~kept, float(spacing))
 
 
-def _stuck(x: Array, there: Mask, equal: Mask, step: float, turning: bool) -> Mask:
+def _find_stuck(x: Array, present: Mask, equal: Mask, step: float, turning: bool) -> Mask:
     """(N,): samples in runs of equal values that are too long for how often the column repeats a value elsewhere.
 
     The chance that two neighbours are equal is counted in the pairs before and after a run, as many as it has; or it is the resolution
@@ -394,15 +394,15 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float, turning: bool) -> Ma
     column enters and leaves by a ``step`` or two of its resolution are where it turns; those at an end of its range are saturation, an
     effect of its own, unless the column leaps there.
     """
-    found = np.zeros(len(x), dtype=np.bool_)
+    stuck = np.zeros(len(x), dtype=np.bool_)
     equals = np.array([(r.start, r.stop + 1) for r in runs(equal)], dtype=np.intp).reshape(-1, 2)
-    low, high = np.min(x[there]), np.max(x[there])
+    low, high = np.min(x[present]), np.max(x[present])
     moves = np.abs(np.diff(x, prepend=x[:1], append=x[-1:]))
     first, last = equals[:, 0], equals[:, 1] - 1
     inside = (x[first] != low) & (x[first] != high)
     sudden = np.minimum(moves[first], moves[last + 1]) > SUDDEN * np.median(moves[1:-1][~equal])
-    finest = max(step, float(np.spacing(np.max(np.abs(x[there])))))
-    by_step = np.minimum(finest / np.maximum(_find_usual_moves(np.abs(np.diff(x)), there), finest), 1.0)
+    finest = max(step, float(np.spacing(np.max(np.abs(x[present])))))
+    by_step = np.minimum(finest / np.maximum(_find_usual_moves(np.abs(np.diff(x)), present), finest), 1.0)
     kept = inside | sudden
     first, last = first[kept], last[kept]
     long = np.zeros(len(equal), dtype=np.bool_)
@@ -418,10 +418,10 @@ def _stuck(x: Array, there: Mask, equal: Mask, step: float, turning: bool) -> Ma
     expected[np.maximum(moves[first], moves[last + 1]) <= 2.5 * step] = np.inf
     for k in np.flatnonzero(expected < np.where(x[first] == 0.0, RARE_ZEROS, RARE)):
         reading = x[first[k]] != 0.0 and last[k] - first[k] < 3  # of which the others are copies
-        found[first[k] + reading : last[k] + 1] = True
+        stuck[first[k] + reading : last[k] + 1] = True
     if not turning and len(x) * float(np.median(by_step)) < RARE:  # it hardly ever meets a value again
-        found |= _find_lost(x, there, found)
-    return found
+        stuck |= _find_lost(x, present, stuck)
+    return stuck
 
 
 def _find_lines(x: Array, there: Mask, step: float) -> Mask:
@@ -441,35 +441,35 @@ def _find_lines(x: Array, there: Mask, step: float) -> Mask:
     return found
 
 
-def _find_lost(x: Array, there: Mask, stuck: Mask) -> Mask:
+def _find_lost(x: Array, present: Mask, stuck: Mask) -> Mask:
     """(N,): single samples of values that come again and again, zero among them: readings that did not arrive."""
-    found = np.zeros(len(x), dtype=np.bool_)
-    values, counts = np.unique(x[there & ~stuck], return_counts=True)
+    lost = np.zeros(len(x), dtype=np.bool_)
+    values, counts = np.unique(x[present & ~stuck], return_counts=True)
     often = (counts >= FEWEST / 2) & (counts >= 4 * np.median(counts))
-    again = values[often & (values != np.min(x[there])) & (values != np.max(x[there]))]
+    again = values[often & (values != np.min(x[present])) & (values != np.max(x[present]))]
     for value in {0.0, *again} if len(again) <= 3 else ():
-        alike = find_short_runs(there & (x == value), WIDEST_SPIKE)
-        found |= alike & (len(runs(alike)) > 1)
-    return found
+        alike = find_short_runs(present & (x == value), WIDEST_SPIKE)
+        lost |= alike & (len(runs(alike)) > 1)
+    return lost
 
 
-def _find_usual_moves(moves: Array, there: Mask) -> Array:
+def _find_usual_moves(moves: Array, present: Mask) -> Array:
     """(N,): the least median of moves (N - 1,), but those of readings that are held, in a sample's own block and the two beside it."""
     size = min(LOCAL, len(moves))
-    pairs = there[1:] & there[:-1]
-    known = pd.Series(np.where(pairs & (moves > 0.0), moves, np.nan))
+    pairs = present[1:] & present[:-1]
+    moving = pd.Series(np.where(pairs & (moves > 0.0), moves, np.nan))
     sizes = [len(b) for b in np.array_split(moves, len(moves) // size)]
-    usual = known.groupby(np.repeat(np.arange(len(sizes)), sizes)).median().fillna(0.0)
+    usual = moving.groupby(np.repeat(np.arange(len(sizes)), sizes)).median().fillna(0.0)
     least = minimum_filter1d(usual.to_numpy(), 3, mode="nearest")
     return np.asarray(np.repeat(least, sizes)[np.r_[0 : len(moves), len(moves) - 1]], dtype=np.float64)
 
 
-def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]:
+def _make_flags(repeated: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]:
     """One flag for all columns of which the same is to be said."""
     derived = ANGULAR_ACCELERATION[0] not in flight.written
     groups: dict[str, list[str]] = {}
     lacks: set[str] = set()
-    for name, r in found:
+    for name, r in repeated:
         text = _describe(r, flight)
         groups.setdefault(text, []).append(name)
         lacks |= {text} if r.every and name in ANGULAR_RATE and derived else set()
@@ -483,15 +483,15 @@ def _flags(found: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]
 def _describe(r: _Repeated, flight: Flight) -> str:
     if r.every:
         return f"recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only recorded values are used"
-    at, places = np.flatnonzero(r.left_out), runs(r.left_out)
+    samples, places = np.flatnonzero(r.left_out), runs(r.left_out)
     filled = r.how == "interpolated"
     if max(x.stop - x.start for x in places) <= WIDEST_SPIKE:
-        where = ", ".join(f"{t:.6g}" for t in flight.time[at[:3]]) + " ..." * (len(at) > 3)
-        lost = f"{'interpolated' if filled else 'repeated'}, or zero, at {count(len(at), 'sample')} (t = {where} s)"
+        where = ", ".join(f"{t:.6g}" for t in flight.time[samples[:3]]) + " ..." * (len(samples) > 3)
+        lost = f"{'interpolated' if filled else 'repeated'}, or zero, at {count(len(samples), 'sample')} (t = {where} s)"
         return f"{lost}: readings that did not arrive? not used"
-    some = (
+    segments = (
         f"{x.stop - x.start} {'equal ' * (not filled)}samples from {flight.time[x.start]:.5g} s"
         for x in places[:3]
     )
     more = f" and {len(places) - 3} times more" if len(places) > 3 else ""
-    return f"the value is {r.how}: {', '.join(some)}{more}, unlike noise; {len(at)} samples not used"
+    return f"the value is {r.how}: {', '.join(segments)}{more}, unlike noise; {len(samples)} samples not used"

@@ -115,12 +115,12 @@ def _require_rate(what: str, where: Path | str, rate: float, f: float, remedy: s
 
 def list_remarks(instrument: Instrument, flight: Flight) -> list[Flag]:
     """Columns that are constant or contradict each other, with the likely mistake."""
-    encoders = (x for d in instrument.layout.discs for x in _encoder(d, flight))
-    noted = (*_rates(flight), *encoders, *_angle_origin(instrument, flight))
-    return [*_still(flight), *_coarse(flight), *_overflown(flight), *(Flag((), text) for text in noted)]
+    encoders = (x for d in instrument.layout.discs for x in _note_encoder(d, flight))
+    notes = (*_note_rates(flight), *encoders, *_note_angle_origin(instrument, flight))
+    return [*_flag_still(flight), *_flag_coarse(flight), *_flag_leaps(flight), *(Flag((), t) for t in notes)]
 
 
-def _still(flight: Flight) -> list[Flag]:
+def _flag_still(flight: Flight) -> list[Flag]:
     """Motion columns that hold one value throughout: nothing is claimed of an output whose motion is not known."""
     moving = {n: flight.channels[n][flight.valid] for n in MOTION if n in flight.channels}
     still = [n for n, x in moving.items() if _find_one_value(x) is not None]
@@ -129,16 +129,16 @@ def _still(flight: Flight) -> list[Flag]:
     return [Flag(tuple(still), text, open=True, kind="still")] if still else []
 
 
-def _coarse(flight: Flight) -> list[Flag]:
+def _flag_coarse(flight: Flight) -> list[Flag]:
     """Thermometers that read two or three values: what follows them is hardly told from what is slow by itself."""
     warm = {n: np.unique(x[flight.valid]) for n, x in flight.channels.items() if flight.units.get(n) == "K"}
     words = "is recorded in so few values that an effect of it may look like a drift, a step or an error of the spin rate"
     return [Flag((n,), f"{n} {words}", kind="coarse") for n, x in warm.items() if 1 < len(x) < FEWEST_LEVELS]
 
 
-def _overflown(flight: Flight) -> list[Flag]:
+def _flag_leaps(flight: Flight) -> list[Flag]:
     """Columns that leap from one end of their range to the other and move on there, as whole numbers do that overflow."""
-    found, columns = [], {**flight.channels, **flight.outputs}
+    flags, columns = [], {**flight.channels, **flight.outputs}
     pairs = flight.valid[1:] & flight.valid[:-1]  # over a gap it moves on unseen
     for name in (n for n in (*MOTION, *flight.outputs) if n in columns and pairs.any()):
         x = columns[name]
@@ -146,8 +146,8 @@ def _overflown(flight: Flight) -> list[Flag]:
         usual, span = float(np.median(np.abs(steps[pairs]))), float(np.ptp(x[flight.valid]))
         leaps = np.flatnonzero(np.abs(steps) > LEAP * span)
         leaps = leaps[(leaps >= SIDE) & (leaps < len(steps) - SIDE)]
-        on = -np.sign(steps[leaps])  # the way in which it moves, before and after
-        moves = np.r_[on * (x[leaps] - x[leaps - SIDE]), on * (x[leaps + 1 + SIDE] - x[leaps + 1])]
+        way = -np.sign(steps[leaps])  # the way in which it moves, before and after
+        moves = np.r_[way * (x[leaps] - x[leaps - SIDE]), way * (x[leaps + 1 + SIDE] - x[leaps + 1])]
         moves = moves[moves < LEAP * span]  # not over another leap
         if usual > SMOOTH * span or not len(moves):
             continue
@@ -156,8 +156,8 @@ def _overflown(flight: Flight) -> list[Flag]:
                 f"{name} leaps from one end of its range to the other and moves on there, {count(len(leaps), 'time')}, first"
                 f" at t = {flight.time[leaps[0] + 1]:.6g} s: did the numbers of a converter overflow?"
             )
-            found.append(Flag((name,), text, open=True))
-    return found
+            flags.append(Flag((name,), text, open=True))
+    return flags
 
 
 def _find_one_value(x: Array) -> float | None:
@@ -165,7 +165,7 @@ def _find_one_value(x: Array) -> float | None:
     return float(x[0]) if len(x) and not np.any(x != x[0]) else None
 
 
-def _angle_origin(instrument: Instrument, flight: Flight) -> list[str]:
+def _note_angle_origin(instrument: Instrument, flight: Flight) -> list[str]:
     """From where the angle of a disc without an encoder counts, where that is not the first sample of a file that begins at 0."""
     turning = [d for d in instrument.layout.discs if d.spin_frequency != 0.0]
     if all(d.angle_column in flight.channels for d in turning):
@@ -182,32 +182,32 @@ def _angle_origin(instrument: Instrument, flight: Flight) -> list[str]:
     return [] if first == 0.0 else [f"the disc angle counts from the first sample (t = {first:.6g} s)"]
 
 
-def _rates(flight: Flight) -> list[str]:
+def _note_rates(flight: Flight) -> list[str]:
     """The recorded angular acceleration against the derivative of the recorded rate."""
     if not all(n in flight.channels for n in ANGULAR_ACCELERATION):
         return []
     G = np.array([flight.channels[n] for n in ANGULAR_ACCELERATION])
     W = np.array([differentiate(flight.channels[n], flight.rate, flight.valid) for n in ANGULAR_RATE])
-    there = flight.valid & np.isfinite([*G, *W]).all(axis=0)
-    if np.sum(there) < FEWEST:
+    present = flight.valid & np.isfinite([*G, *W]).all(axis=0)
+    if np.sum(present) < FEWEST:
         return []
-    G, W = (x[:, there] - np.mean(x[:, there], axis=1, keepdims=True) for x in (G, W))
+    G, W = (x[:, present] - np.mean(x[:, present], axis=1, keepdims=True) for x in (G, W))
     B = np.linalg.lstsq(W.T, G.T, rcond=None)[0].T
-    found = []
+    notes = []
     for k, (rate, change) in enumerate(zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True)):
         best = int(np.argmax(np.abs(B[k]) * np.std(W, axis=1)))
         factor = float(B[k, best])
         if np.std(G[k] - B[k] @ W) > UNLIKE * np.std(G[k]) or factor == 0.0:
             continue
         if best != k or not 1 / SAME_SIZE < factor < SAME_SIZE:
-            own = f", not that of {rate}" if best != k else ""
-            found.append(
-                f"{change} is {factor:.3g} times the derivative of {ANGULAR_RATE[best]}{own}: check axes, signs and units of both"
+            remark = f", not that of {rate}" if best != k else ""
+            notes.append(
+                f"{change} is {factor:.3g} times the derivative of {ANGULAR_RATE[best]}{remark}: check axes, signs and units of both"
             )
-    return found
+    return notes
 
 
-def _encoder(disc: Disc, flight: Flight) -> list[str]:
+def _note_encoder(disc: Disc, flight: Flight) -> list[str]:
     """The encoder's rate against the model's spin rate."""
     column, f = disc.angle_column, disc.spin_frequency
     if column not in flight.channels or f == 0.0:
@@ -258,15 +258,15 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
     s = make_sampler(model, instrument, flight, places[0])
     if not s.usable.any():
         return flight
-    s = s.with_flight(_with_right_clock(s))
+    s = s.with_flight(_correct_clock(s))
     finding = find_mistake(s)
     if finding is not None:
         if _is_senseless(finding, instrument):
             raise _refuse(s.flight, finding)
-        s = s.with_flight(s.flight.flagged([_remark(finding)]))
+        s = s.with_flight(s.flight.flagged([_make_flag(finding)]))
     flight = smooth_noisy_motion(s)
     for place in places:
-        flight = _without_output_spikes(make_sampler(model, instrument, flight, place))
+        flight = _leave_out_output_spikes(make_sampler(model, instrument, flight, place))
     return flight
 
 
@@ -280,18 +280,18 @@ def _is_senseless(f: Finding, instrument: Instrument) -> bool:
 
 
 def _refuse(flight: Flight, f: Finding) -> UserError:
-    left = f"the model leaves {100 * f.before.share:.3g} % of the output unexplained"
+    unexplained = f"the model leaves {100 * f.before.share:.3g} % of the output unexplained"
     odd = "".join(f"; {x.reason}" for x in flight.flags)
     return UserError(
         f"the record does not fit the instrument; the likely mistake: {f.what}",
         where=flight.path or flight.name,
-        found=f"{left}, {f.factor:.3g} times more than with the mistake undone{odd}",
+        found=f"{unexplained}, {f.factor:.3g} times more than with the mistake undone{odd}",
         expected="units, signs, axes and spin rate as the header and model.toml say",
         remedy=f.best.remedy,
     )
 
 
-def _remark(f: Finding) -> Flag:
+def _make_flag(f: Finding) -> Flag:
     gain = "the parameters stay closer to the test sheet"
     if f.factor > HALVED:
         gain = f"the unexplained part is {f.factor:.3g} times smaller"
@@ -306,7 +306,7 @@ def _remark(f: Finding) -> Flag:
 # --- the clock -----------------------------------------------------------------------------------------
 
 
-def _with_right_clock(s: Sampler) -> Flight:
+def _correct_clock(s: Sampler) -> Flight:
     """The flight by the clock that explains it: its own, or an even one where stamps jitter, or were set on the way."""
     x = s.flight
     if s.recorded.demodulated or len(x) < FEWEST:
@@ -317,24 +317,24 @@ def _with_right_clock(s: Sampler) -> Flight:
     steps = find_clock_steps(x.time, x.present)
     if worst <= EVEN and not steps:
         return x
-    own = fit_rows(s.take())
+    recorded = fit_rows(s.take())
     even = s.with_flight(replace(x, time=instants, began=(x.began or 0.0) + float(instants[0] - x.time[0])))
     # times by the count are even: what that is worth where stamps jitter says nothing about a clock
-    least = min(own.misfit, fit_rows(even.take()).misfit) if steps and worst > EVEN else own.misfit
+    least = min(recorded.misfit, fit_rows(even.take()).misfit) if steps and worst > EVEN else recorded.misfit
     several = [steps, *([c] for c in steps if len(steps) > 1)] if steps else []
-    clocks = [(some, _by_count(x, some, first, step)) for some in several]
+    clocks = [(subset, _count_times(x, subset, first, step)) for subset in several]
     if len(several) > 1:
-        clocks.append((steps, _by_count(x, steps, *fit_clock_put_right(x.time, steps))))
-    gains = [least - fit_rows(s.with_flight(made).take()).misfit for _, made in clocks]
+        clocks.append((steps, _count_times(x, steps, *fit_clock_put_right(x.time, steps))))
+    gains = [least - fit_rows(s.with_flight(flight).take()).misfit for _, flight in clocks]
     gain = max(gains, default=0.0)
     if INDEPENDENT * gain > CLOCK:
-        found, made = clocks[gains.index(gain)]
-        where = ", ".join(str(c) for c in found[:3])
+        jumps, flight = clocks[gains.index(gain)]
+        where = ", ".join(str(c) for c in jumps[:3])
         text = (
             f"the time stamps jump {where} (was the clock adjusted?), but sampling continued: times are taken from the sample"
             f" count ({np.exp(gain):.3g} times less remains unexplained)"
         )
-        return derive_acceleration(made).flagged([Flag(("time",), text)])
+        return derive_acceleration(flight).flagged([Flag(("time",), text)])
     undecided = "; whether the clock was set instead is hidden by what the model leaves unexplained"
     undecided = undecided if abs(INDEPENDENT * gain) < CLOCK else ""
     pauses = (
@@ -343,14 +343,14 @@ def _with_right_clock(s: Sampler) -> Flight:
         if c.part and not c.until
     )
     x = x.flagged([Flag(("time",), text) for text in pauses])
-    if worst <= EVEN or not _is_even(s, even, own.p):
+    if worst <= EVEN or not _is_even(s, even, recorded.p):
         return x
     text = (
         f"the time stamps jitter by up to {worst:.2g} of a step, but the output was sampled evenly: they are"
         " replaced by an even grid"
     )
-    noted = [Flag(("time",), text)] * (worst > JITTER_NOTED)
-    return derive_acceleration(replace(x, time=even.flight.time, began=even.flight.began)).flagged(noted)
+    flags = [Flag(("time",), text)] * (worst > JITTER_NOTED)
+    return derive_acceleration(replace(x, time=even.flight.time, began=even.flight.began)).flagged(flags)
 
 
 def _is_even(s: Sampler, even: Sampler, p: Array) -> bool:
@@ -360,14 +360,14 @@ def _is_even(s: Sampler, even: Sampler, p: Array) -> bool:
     the output's slope. The part of that which is in the output is 1 or 0; it is fitted to second differences, from which slow
     errors of the model are gone.
     """
-    by_stamps, by_count = (_residual(t, p) for t in (s, even))
+    by_stamps, by_count = (_compute_residual(t, p) for t in (s, even))
     three = s.usable[2:] & s.usable[1:-1] & s.usable[:-2]
     d, e = (np.diff(y, 2)[:, three] for y in (by_count - by_stamps, by_count))
     kept = find_inliers(np.abs(e))  # spikes say nothing
     return bool(np.sum((d * e)[kept]) < 0.5 * np.sum((d * d)[kept]))
 
 
-def _by_count(x: Flight, steps: Sequence[ClockStep], first: float, step: float) -> Flight:
+def _count_times(x: Flight, steps: Sequence[ClockStep], first: float, step: float) -> Flight:
     """The flight with times by the sample count; rows that are missing where the clock was set are no gap."""
     kept = np.ones(len(x), dtype=np.bool_)
     for c in steps:
@@ -382,29 +382,29 @@ def _by_count(x: Flight, steps: Sequence[ClockStep], first: float, step: float) 
 # --- the output ----------------------------------------------------------------------------------------
 
 
-def _without_output_spikes(s: Sampler) -> Flight:
+def _leave_out_output_spikes(s: Sampler) -> Flight:
     """The flight without the spikes of an output, found in what the fitted model leaves; saturated samples are said."""
     x, name, flags = s.flight, s.output.name, []
-    there = x.valid & np.isfinite(x.outputs[s.columns[0]])
-    clipped = int(np.count_nonzero(there & ~s.usable))
+    present = x.valid & np.isfinite(x.outputs[s.columns[0]])
+    clipped = int(np.count_nonzero(present & ~s.usable))
     if clipped and s.columns == (name,):
-        top = float(np.max(np.abs(x.outputs[name][there])))
+        top = float(np.max(np.abs(x.outputs[name][present])))
         text = f"{name}: {clipped} samples are at the extreme value of {top:.6g} V: saturated, not used"
         flags.append(Flag((name,), text))
     valid = np.array(x.valid)
     if not s.recorded.demodulated and s.usable.any():  # a demodulator has smeared them
-        for column, left in zip(s.columns, _residual(s, fit_rows(s.take()).p), strict=True):
-            found = find_spikes(left, s.usable)
-            valid &= ~found
-            flags += [Flag((column,), describe_spikes(column, found, x.time))] if found.any() else []
+        for column, residual in zip(s.columns, _compute_residual(s, fit_rows(s.take()).p), strict=True):
+            spikes = find_spikes(residual, s.usable)
+            valid &= ~spikes
+            flags += [Flag((column,), describe_spikes(column, spikes, x.time))] if spikes.any() else []
     return replace(x, valid=valid).flagged(flags)
 
 
-def _residual(s: Sampler, p: Array) -> Array:
+def _compute_residual(s: Sampler, p: Array) -> Array:
     """(columns, N) Eo: what a model with these parameters leaves of the output."""
     size = len(s.flight)
-    left = np.empty((len(s.columns), size))
+    residual = np.empty((len(s.columns), size))
     for part in split_range(size, CHUNK):
         rows = s.take(np.arange(part.start, part.stop))
-        left[:, part] = rows.data - rows.predict(p)
-    return left / scale_factor(s.model, p, s.place)
+        residual[:, part] = rows.data - rows.predict(p)
+    return residual / scale_factor(s.model, p, s.place)

@@ -76,15 +76,15 @@ COST = 3.0  # what orders a mistake of timing after one of columns that explains
 def propose_times(s: Sampler) -> list[Hypothesis]:
     """The best of each kind of mistake."""
     turning, whole = s.disc.spin_frequency != 0.0, not s.recorded.demodulated
-    found = [*_propose_shifts(s), *_propose_slips(s)] if whole else []
+    hypotheses = [*_propose_shifts(s), *_propose_slips(s)] if whole else []
     if turning and whole:  # a demodulator at the wrong rate lets nothing through
-        found += _propose_spin(s)
+        hypotheses += _propose_spin(s)
     if turning and not (s.has_encoder and whole):
-        found += _propose_phase(s)
+        hypotheses += _propose_phase(s)
     if turning and not s.has_encoder:
-        found += _propose_origin(s)
-        found += _propose_losses(s) if whole else []
-    return found
+        hypotheses += _propose_origin(s)
+        hypotheses += _propose_losses(s) if whole else []
+    return hypotheses
 
 
 def _fit(s: Sampler, rows: Index, **options: Any) -> LinearFit:
@@ -112,17 +112,17 @@ def _propose_spin(s: Sampler) -> list[Hypothesis]:
         width, span = 2 * step, span * 4
     near = best + step * np.arange(-1, 2)
     best = find_least(lambda f: _fit(s, rows, spin_frequency=f).misfit, near, 1e-9 * abs(f0))
-    shown, remedy = write_rate(best, x.duration), "record spin_angle"
-    what = f"the spin rate is {shown} Hz, not the model's {f0:.9g} Hz ({100 * (best / f0 - 1):+.2g} %)"
+    rate, remedy = write_rate(best, x.duration), "record spin_angle"
+    what = f"the spin rate is {rate} Hz, not the model's {f0:.9g} Hz ({100 * (best / f0 - 1):+.2g} %)"
     if s.has_encoder:
         column, step = s.disc.angle_column, find_step(x.channels[s.disc.angle_column]) or 0.0
         wrong = "is not the angle of the disc, which"
         if step > COARSE_ANGLE:
             wrong = f"is recorded in steps of {np.rad2deg(step):.3g} degrees, too coarse for this output; the disc"
-        what = f"{column} {wrong} turns at {shown} Hz from angle 0 at the first sample"
+        what = f"{column} {wrong} turns at {rate} Hz from angle 0 at the first sample"
         remedy = f"check the encoder and its zero, or leave {column} out"
-    if float(shown) != float(write_rate(f0, x.duration)):
-        remedy = f'write spin_frequency = "{shown} Hz" in model.toml, or {remedy}'
+    if float(rate) != float(write_rate(f0, x.duration)):
+        remedy = f'write spin_frequency = "{rate} Hz" in model.toml, or {remedy}'
         if not s.has_encoder:
             remedy += "; if times were made from row numbers, rows may be missing: use the recorder's time"
     elif not s.has_encoder:
@@ -141,13 +141,13 @@ def write_rate(f: float, duration: float) -> str:
 def _propose_origin(s: Sampler) -> list[Hypothesis]:
     """The disc angle counted from the first sample in the place of t = 0, or the other way round."""
     x = s.flight
-    here = find_start(x, s.instrument)
+    start = find_start(x, s.instrument)
     origin, other = "first-sample", "zero"
-    if here == float(x.time[0]) - (x.began or 0.0):
+    if start == float(x.time[0]) - (x.began or 0.0):
         origin, other = other, origin
-    there = find_start(x, replace(s.instrument, angle_origin=origin))
-    phase = _angle_at(s, there) - _angle_at(s, here)
-    if abs(_wrapped(phase)) < LEAST_PHASE:
+    alternative = find_start(x, replace(s.instrument, angle_origin=origin))
+    phase = _find_angle(s, alternative) - _find_angle(s, start)
+    if abs(_wrap(phase)) < LEAST_PHASE:
         return []
     words = {"zero": "at t = 0", "first-sample": f"at the first sample (t = {x.time[0]:.6g} s)"}
     what = f"the disc was at angle 0 {words[origin]}, not {words[other]}"
@@ -158,18 +158,18 @@ def _propose_origin(s: Sampler) -> list[Hypothesis]:
     return [Hypothesis(what, remedy, fit_rows(s.take(phase=phase)), kind="origin", calming=True)]
 
 
-def _angle_at(s: Sampler, start: float) -> float:
+def _find_angle(s: Sampler, start: float) -> float:
     """The disc angle, rad, so many seconds after angle 0."""
     return float(disc_angle(np.zeros(1), s.disc.spin_frequency, start)[0])
 
 
 def _propose_phase(s: Sampler) -> list[Hypothesis]:
     rows, round_about = s.rows(most=600), np.deg2rad(np.arange(0.0, 360.0, 10.0))
-    best = _wrapped(find_least(lambda a: _fit(s, rows, phase=a).misfit, round_about, np.deg2rad(0.05)))
+    best = _wrap(find_least(lambda a: _fit(s, rows, phase=a).misfit, round_about, np.deg2rad(0.05)))
     if abs(best) < LEAST_PHASE:
         return []
-    taken = _angle_at(s, find_start(s.flight, s.instrument))
-    true, believed = (np.rad2deg(_wrapped(a)) for a in (taken + best, taken))
+    start = _find_angle(s, find_start(s.flight, s.instrument))
+    true, believed = (np.rad2deg(_wrap(a)) for a in (start + best, start))
     what = (
         f"the disc was at {true:.4g} degrees at the first sample, not at {believed:.4g}"
         " (a file cut out of a longer one?)"
@@ -178,7 +178,7 @@ def _propose_phase(s: Sampler) -> list[Hypothesis]:
     return [Hypothesis(what, remedy, fit_rows(s.take(phase=best)), COST, effects=("spin-phase-offset",))]
 
 
-def _wrapped(angle: float) -> float:
+def _wrap(angle: float) -> float:
     return float((angle + np.pi) % (2 * np.pi) - np.pi)
 
 
@@ -197,19 +197,19 @@ def _propose_losses(s: Sampler) -> list[Hypothesis]:
     output, motion = (np.mean(x.reshape(-1, turn), axis=1) for x in mixed)
     steps = -np.diff(np.angle(np.sum((output * np.conj(motion)).reshape(-1, TURNS), axis=1)))
     rows, at = s.rows(), (np.arange(blocks) + 0.5) * turn * TURNS
-    found = []
+    candidates = []
     for kind, way in (("missing", np.sign(f)), ("doubled", -np.sign(f))):
         rises = np.cumsum(np.mod(way * steps + BACK, 2 * np.pi) - BACK)
         angle = way * optimize.isotonic_regression(np.r_[0.0, rises]).x
-        turned = abs(float(angle[-1] - angle[0]))
-        number = round(turned / abs(2 * np.pi * f) * rate)
-        if turned > LEAST_TURN:
+        advance = abs(float(angle[-1] - angle[0]))
+        number = round(advance / abs(2 * np.pi * f) * rate)
+        if advance > LEAST_TURN:
             fitted = _fit(s, rows, phase=np.interp(rows, at, angle - angle[0]))
-            found.append((fitted, f"{kind} (about {number} of {len(s.flight)})"))
-    if not found:
+            candidates.append((fitted, f"{kind} (about {number} of {len(s.flight)})"))
+    if not candidates:
         return []
-    best = min((x for x, _ in found), key=lambda x: x.share)
-    words = " or ".join(text for x, text in found if x.share < ALIKE * best.share)
+    best = min((x for x, _ in candidates), key=lambda x: x.share)
+    words = " or ".join(text for x, text in candidates if x.share < ALIKE * best.share)
     what = f"rows are {words} all along the record, while its stamps go on evenly"
     remedy = "use the recorder's time, not the row number; or record spin_angle"
     return [Hypothesis(what, remedy, best, COST + 1.0, kind="losses")]
@@ -218,18 +218,18 @@ def _propose_losses(s: Sampler) -> list[Hypothesis]:
 def propose_parts(s: Sampler) -> list[Hypothesis]:
     """What lies between two instants is of another record: of it the model leaves more than of effects, the rest it explains without it."""
     rows, n = s.rows(most=PART_ROWS), len(s.flight)
-    some = s.take(rows)
-    X, y = (x.reshape(*x.shape[:-2], -1) for x in linearise(some))
-    place, size = np.tile(rows, len(some.data)), fit_rows(some).size
+    sample = s.take(rows)
+    X, y = (x.reshape(*x.shape[:-2], -1) for x in linearise(sample))
+    positions, size = np.tile(rows, len(sample.data)), fit_rows(sample).size
 
     def judge(first: float, last: float) -> tuple[float, float]:
         """The mean misfit, of the part that of a model that predicts nothing; and rms of what is left of the part, over the output."""
-        inside = (place >= first) & (place < last)
+        inside = (positions >= first) & (positions < last)
         if not inside.any():
             return np.inf, 0.0
         theta, kept, _ = fit_robustly(X[:, ~inside], y[~inside])
-        left = y - theta @ X
-        rms, part = (float(np.sqrt(np.mean(x**2))) for x in (left[~inside][kept], left[inside]))
+        residual = y - theta @ X
+        rms, part = (float(np.sqrt(np.mean(x**2))) for x in (residual[~inside][kept], residual[inside]))
         rest = LinearFit(rms, size, theta, 0.0, 0.0, float(np.mean(kept)))
         return (1.0 - float(np.mean(inside))) * rest.misfit, part / size
 
@@ -291,15 +291,15 @@ _RECORD = _Late("the record is", "rows", "the disc")
 def _propose_shifts(s: Sampler) -> list[Hypothesis]:
     """Motion, specific force alone, and output apart in time: candidates from a cross-correlation, judged by the model."""
     rows, rate = s.rows(most=400), s.flight.rate
-    lags = [k for k in _lags(s) if k != 0]
-    found = []
+    lags = [k for k in _list_lags(s) if k != 0]
+    shifts = []
     for x in (_MOTION, _FORCE, *_AXES, _OUTPUT) if lags else ():
         k = _find_lag(s, rows, lags, x)
         what = f"{x.name} {x.describe(k, rate)} against {x.against}"
         remedy = f"shift the {x.columns} by {abs(k) / rate:.6g} s"
         effects, cost = (("time-offset",), COST) if x in (_MOTION, _OUTPUT) else ((), COST + 1.0)
-        found.append(Hypothesis(what, remedy, fit_rows(s.take(**x.options(s, k))), cost, "shift", effects))
-    return found
+        shifts.append(Hypothesis(what, remedy, fit_rows(s.take(**x.options(s, k))), cost, "shift", effects))
+    return shifts
 
 
 def _propose_slips(s: Sampler) -> list[Hypothesis]:
@@ -307,15 +307,15 @@ def _propose_slips(s: Sampler) -> list[Hypothesis]:
     disc, as rows were lost or doubled; perhaps several times.
     """
     n, f = len(s.flight), abs(s.disc.spin_frequency)
-    few = int(np.clip(s.flight.duration * f / SLIP_TURNS, 4, SLIP_PARTS))
-    there = np.flatnonzero(s.usable)
-    parts = list(pairwise([0, *there[[len(there) * k // few for k in range(1, few)]].tolist(), n]))
-    apart = [[k for k in _lags(s, *part, beside=0) if abs(k) < n // 8] for part in parts]
-    likely = dict.fromkeys((_MOTION, _FORCE, _RATES, _OUTPUT), apart)
+    number = int(np.clip(s.flight.duration * f / SLIP_TURNS, 4, SLIP_PARTS))
+    usable = np.flatnonzero(s.usable)
+    parts = list(pairwise([0, *usable[[len(usable) * k // number for k in range(1, number)]].tolist(), n]))
+    part_lags = [[k for k in _list_lags(s, *part, beside=0) if abs(k) < n // 8] for part in parts]
+    candidates = dict.fromkeys((_MOTION, _FORCE, _RATES, _OUTPUT), part_lags)
     if f > 0.0 and not s.has_encoder:
-        likely[_RECORD] = [np.rint(TURNED * s.flight.rate / f).astype(int).tolist()] * few
-    tried: list[tuple[float, _Late, Index, Index]] = []
-    for x, first in likely.items():
+        candidates[_RECORD] = [np.rint(TURNED * s.flight.rate / f).astype(int).tolist()] * number
+    fits: list[tuple[float, _Late, Index, Index]] = []
+    for x, first in candidates.items():
         lags = {
             _find_lag(s, s.rows(*p, SLIP_ROWS // 4), [0, *k], x) for p, k in zip(parts, first, strict=True)
         }
@@ -323,10 +323,10 @@ def _propose_slips(s: Sampler) -> list[Hypothesis]:
         rows = s.rows(reach, n - reach, SLIP_ROWS)
         for late in _follow_lags(s, rows, sorted({0, *lags}), x) if any(lags) else ():
             if np.ptp(late):
-                tried.append((_fit(s, rows, **x.options(s, late)).misfit, x, rows, late))
-    if not tried:
+                fits.append((_fit(s, rows, **x.options(s, late)).misfit, x, rows, late))
+    if not fits:
         return []
-    _, x, rows, late = min(tried, key=lambda one: one[0])
+    _, x, rows, late = min(fits, key=lambda one: one[0])
     for _ in range(ROUNDS):
         beside = [
             s.rows(int(rows[k]), int(rows[k + 1]) + 1, SLIP_ROWS) for k in np.flatnonzero(np.diff(late))
@@ -364,8 +364,8 @@ def _describe_losses(s: Sampler, slips: Sequence[tuple[float, int, int]]) -> tup
     parts = []
     for at, before, since in slips:
         lost = round((since - before) % turn)
-        some = f"{lost} row{'s are' if lost != 1 else ' is'} missing there ({lost / rate:.4g} s)"
-        parts.append(f"at t = {at:.5g} s: {some}, or {round(turn - lost)} are duplicated")
+        rows = f"{lost} row{'s are' if lost != 1 else ' is'} missing there ({lost / rate:.4g} s)"
+        parts.append(f"at t = {at:.5g} s: {rows}, or {round(turn - lost)} are duplicated")
     return (
         f"rows are missing {', '.join(parts)}; or whole turns of the disc ({turn / rate:.4g} s) more",
         "use the recorder's time, not the row number; or split the record there, or record spin_angle",
@@ -374,12 +374,12 @@ def _describe_losses(s: Sampler, slips: Sequence[tuple[float, int, int]]) -> tup
 
 def _find_lag(s: Sampler, rows: Index, lags: Sequence[int], x: _Late) -> int:
     """The lag, of some and from the best of these on while less is left, with which the model leaves least of some rows."""
-    tried: dict[int, float] = {}
-    waiting = [*lags]
-    while waiting and len(tried) < MOST_SHIFTS:
-        tried |= {k: _fit(s, rows, **x.options(s, k)).misfit for k in waiting}
-        best = min(tried, key=lambda k: tried[k])
-        waiting = [k for d in (-1, 1) if (k := best + d or d) not in tried]  # over 0, the record as it is
+    misfits: dict[int, float] = {}
+    untried = [*lags]
+    while untried and len(misfits) < MOST_SHIFTS:
+        misfits |= {k: _fit(s, rows, **x.options(s, k)).misfit for k in untried}
+        best = min(misfits, key=lambda k: misfits[k])
+        untried = [k for d in (-1, 1) if (k := best + d or d) not in misfits]  # over 0, the record as it is
     return best
 
 
@@ -390,26 +390,26 @@ def _follow_lags(
     else as fitted to the first third as it is, and to the last third with the lag that suits it best.
     """
     systems = [linearise(s.take(rows, **x.options(s, np.full(len(rows), k)))) for k in lags]
-    third, every = len(rows) // 3, np.arange(len(rows))
-    ways = [
+    third, positions = len(rows) // 3, np.arange(len(rows))
+    choices = [
         [(*systems[lags.index(0)], slice(0, third))],
         [(X, y, slice(len(rows) - third, None)) for X, y in systems],
     ]
     if late is not None:
         at = np.searchsorted(lags, late)
-        X, y = (np.moveaxis(np.stack(z)[at, ..., every], 0, -1) for z in zip(*systems, strict=True))
-        ways = [[(X, y, slice(None))]]
-    for way in ways:
-        theta, rms = min((_fit_some(*one) for one in way), key=lambda x: x[1])
+        X, y = (np.moveaxis(np.stack(z)[at, ..., positions], 0, -1) for z in zip(*systems, strict=True))
+        choices = [[(X, y, slice(None))]]
+    for choice in choices:
+        theta, rms = min((_fit_segment(*one) for one in choice), key=lambda x: x[1])
         square = np.array([np.sum((y - np.tensordot(theta, X, 1)) ** 2, axis=0) for X, y in systems])
         yield np.asarray(lags)[find_path(np.log1p(square / rms**2), SWITCH)]
 
 
-def _fit_some(X: Array, y: Array, end: slice) -> tuple[Array, float]:
+def _fit_segment(X: Array, y: Array, end: slice) -> tuple[Array, float]:
     """Coefficients (n,) of columns (n, m, N) by some of their rows, and the size of what they leave there, Eo."""
-    some, left = X[:, :, end].reshape(len(X), -1), y[:, end].reshape(-1)
-    theta, kept, _ = fit_robustly(some, left)
-    return theta, max(float(np.sqrt(np.mean((left - theta @ some)[kept] ** 2))), 1e-12)
+    columns, data = X[:, :, end].reshape(len(X), -1), y[:, end].reshape(-1)
+    theta, kept, _ = fit_robustly(columns, data)
+    return theta, max(float(np.sqrt(np.mean((data - theta @ columns)[kept] ** 2))), 1e-12)
 
 
 def find_path(costs: Array, switch: float) -> Index:
@@ -428,7 +428,7 @@ def find_path(costs: Array, switch: float) -> Index:
     return path
 
 
-def _lags(s: Sampler, first: int = 0, last: int | None = None, beside: int = 2) -> Sequence[int]:
+def _list_lags(s: Sampler, first: int = 0, last: int | None = None, beside: int = 2) -> Sequence[int]:
     """Samples by which the motion may be late in a segment: where the demodulated output resembles a_x + i a_y, or one of them, or,
     at twice the spin rate, the square of the rates in the disc's plane, most; and so many samples ``beside``.
     """
@@ -448,13 +448,13 @@ def _lags(s: Sampler, first: int = 0, last: int | None = None, beside: int = 2) 
     pairs = [(z, carried) for z in (in_plane, in_plane.real + 0j, in_plane.imag + 0j)]
     lags = signal.correlation_lags(n - 1, n - 1)
     near = np.abs(lags) <= min(n // 4, int(FARTHEST * x.rate))
-    found: list[int] = []
+    shifts: list[int] = []
     for motion, output in (map(prepare, pair) for pair in (*pairs, (rates**2, turned))):
         for other in (motion, np.conj(motion)):
             like = np.abs(signal.correlate(other, output, method="fft"))
             top = int(lags[near][np.argmax(like[near])])
-            found += [k for k in range(top - beside, top + beside + 1) if k not in found]
-    return found
+            shifts += [k for k in range(top - beside, top + beside + 1) if k not in shifts]
+    return shifts
 
 
 def _mix(s: Sampler, rows: Index) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:

@@ -15,7 +15,7 @@ from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.io.sampling import find_clock_steps, fit_even_clock, make_grid
 from ragg_runtime.screening.readings import find_spikes, leave_out_glitches, leave_out_repeated
-from ragg_runtime.screening.screen import _overflown
+from ragg_runtime.screening.screen import _flag_leaps
 from ragg_runtime.signals.fir import find_step
 from ragg_runtime.simulate import simulate_flight
 
@@ -209,14 +209,14 @@ def test_numbers_that_overflow_are_said() -> None:
     full = 0.9 * np.max(SMOOTH)
     wrapped = (SMOOTH + full) % (2 * full) - full
     for x in (Flight(TIME, {"a_x": wrapped}, {}), Flight(TIME, {}, {"G_out": wrapped})):
-        (flag,) = _overflown(x)
+        (flag,) = _flag_leaps(x)
         assert flag.open and flag.columns == (*x.channels, *x.outputs) and "converter overflow" in flag.reason
     spiked = np.where(np.arange(N) % 1000 == 7, -9.0, SMOOTH)
     for x in (SMOOTH, spiked, NOISE, np.sign(np.sin(TIME / 7)) + 0.01 * NOISE):
-        assert _overflown(Flight(TIME, {"a_x": x}, {})) == []
+        assert _flag_leaps(Flight(TIME, {"a_x": x}, {})) == []
     fast, valid = np.sin(2 * np.pi * TIME / 5.0), np.ones(N, dtype=bool)
     valid[20:60] = False  # from one end of the range to the other, unseen
-    assert _overflown(Flight(TIME, {"a_x": fast}, {}, valid=valid)) == []
+    assert _flag_leaps(Flight(TIME, {"a_x": fast}, {}, valid=valid)) == []
 
 
 @pytest.mark.parametrize(
