@@ -62,7 +62,7 @@ class BlockScores:
         self.time = np.asarray(time[at], dtype=np.float64)
         intervals = len(self.edges) - 1
         self.dot, self.norm2 = np.zeros((intervals, count)), np.zeros((intervals, count))
-        self.square, self.rows = np.zeros(intervals), np.zeros(intervals)
+        self.square, self.rows, self.fourth = np.zeros(intervals), np.zeros(intervals), 0.0
 
     def _runs(self, piece: Piece) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Where, among the whitened rows of a segment, runs within one interval begin; and their intervals."""
@@ -75,6 +75,7 @@ class BlockScores:
         starts, intervals = self._runs(piece)
         np.add.at(self.square, intervals, np.add.reduceat(y**2, starts))
         np.add.at(self.rows, intervals, np.diff(starts, append=len(y)).astype(np.float64))
+        self.fourth += float(np.sum(y**4))
 
     def add(self, piece: Piece, y: Array, at: slice, X: Array) -> None:
         """Count in the whitened series X (terms, rows) of the terms at places ``at``; others are left alone."""
@@ -98,7 +99,9 @@ class BlockScores:
         square, rows = np.bincount(block, self.square), np.bincount(block, self.rows)
         level = square / np.maximum(rows, 1.0) / (np.sum(square) / np.sum(rows))
         d, v = self.dot[:, terms], self.norm2[:, terms] * level[block][:, None]
-        known = float(np.mean(rows[rows > 0]))
+        # of heavy tails, as the fourth moment tells, a block's rows tell its level no better than fewer Gaussian ones would
+        spread = self.fourth * float(np.sum(rows)) / float(np.sum(square)) ** 2 - 1.0
+        known = float(np.mean(rows[rows > 0])) * min(1.0, 2.0 / max(spread, 1e-3))
         found = [self._scatter(d, v, block), self._window(d, v, known), self._jump(d, v), self._swing(d, v)]
         best = min((f for f in found if f is not None), key=lambda f: f.log_p)
         log_p = min(0.0, best.log_p + float(np.log(len(terms) * QUESTIONS)))
