@@ -67,8 +67,9 @@ def diagnose_fitted(
     first = Stage.of(f)
     several = len(flights) > 1
     apart = find_disagreement(first, extend) if several and are_far_apart(first) else ()
-    odd = any(flag.open for x in flights for flag in x.flags)
-    evidence = search(first, extend, apart=bool(apart), odd=odd)
+    # a mistake that screening has named is in the whole record, anything else that is odd in some of its columns
+    mistakes = [flag.effects for x in flights for flag in x.flags if flag.open and not flag.columns]
+    evidence = search(first, extend, apart=bool(apart), mistakes=mistakes)
     output = _find_output_effects(f, flights)
     found = Conclusion.of(evidence, output, apart=bool(apart))
     if several and found.remains and not apart:

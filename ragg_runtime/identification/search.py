@@ -199,17 +199,18 @@ def _list_given(last: Stage, chosen: Iterable[str]) -> list[int]:
     return [n for e in chosen for n in last.chosen[e]]
 
 
-def search(first: Stage, extend: Extend | None, *, apart: bool, odd: bool = False) -> Evidence:
+def search(
+    first: Stage, extend: Extend | None, *, apart: bool, mistakes: Sequence[Sequence[str]] = ()
+) -> Evidence:
     """Search forward, and fit what is chosen in the model, without effects that then have an impossible size.
 
-    Nothing is searched in flights that are kept ``apart``, nor in an output of which the model explains nothing. In a record that holds
-    something ``odd``, of which hardly anything is claimed, one strong effect is; what is strong beside that remains.
+    Nothing is searched in flights that are kept ``apart``, nor in an output of which the model explains nothing. ``mistakes``: for each
+    that the record is said to hold the effects that describe it.
     """
     idle = apart or measure_explained(first.fitted, first.scored).complaint is not None
-    most = 0 if idle else 1 if odd else selection.MOST
-    steps, last, spent = strong.select_strong(first, extend, most)
-    if idle or (odd and last.strong):
-        last = last.without_choice()
+    steps, last, spent = (
+        ([], first.without_choice(), False) if idle else strong.select_strong(first, extend, mistakes)
+    )
     final = _derive_chosen(last, extend)
     while final is not None and (wrong := strong.find_impossible(final, last.chosen)):
         kept = {e: c for e, c in last.problem.candidates.items() if e not in wrong}

@@ -167,20 +167,23 @@ def _with_priors_of_sheet(f: Fitted) -> Fitted | None:
 
 
 def select_strong(
-    first: Stage, extend: Extend | None, most: int = selection.MOST
+    first: Stage, extend: Extend | None, mistakes: Sequence[Sequence[str]] = ()
 ) -> tuple[list[AddedEffect], Stage, bool]:
-    """The strong effects, the strongest first, at ``most`` so many; the stage at which none is left, or what is missing is not in the
-    catalogue, or all fits are made; and whether they are.
+    """The strong effects, the strongest first; the stage at which none is left, or what is missing is not in the catalogue, or
+    all fits are made; and whether they are. Where the strongest is none of those that describe ``mistakes``, nothing of the record can be
+    claimed, and what is strong beside it remains.
     """
     found: list[AddedEffect] = []
     stage, fits = first, FITS
-    while extend is not None and stage.strong and len(found) < most and fits > 0:
+    while extend is not None and stage.strong and len(found) < selection.MOST and fits > 0:
         contest = Contest(stage, extend, fits)
         one = contest.add_strongest()
         if one is None:
             return found, stage.without_choice(), contest.fits <= 0
         found.append(one)
         stage, fits = Stage.of(one.after, beside=True), contest.fits
+        if stage.strong and any(found[0].effect not in effects for effects in mistakes):
+            return found, stage.without_choice(), fits <= 0
     return found, stage, fits <= 0
 
 
