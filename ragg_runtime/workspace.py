@@ -16,7 +16,7 @@ from ragg_runtime.instrument.model_toml import parse_instrument, with_full_kinem
 from ragg_runtime.io import Flight
 from ragg_runtime.io import read_flights as _read_flights
 from ragg_runtime.io.mapping import Mapped, parse_mapping, read_mapping
-from ragg_runtime.io.record import GRADIENT, distinct
+from ragg_runtime.io.record import GRADIENT, require_distinct
 from ragg_runtime.model import derive
 from ragg_runtime.model.directory import (
     MAPPING,
@@ -209,7 +209,7 @@ def read_flights(
             name="flight" if len(sources) == 1 else f"flight {n}",
         )
         flights += [screen(m.model, m.instrument, x) for x in records]
-    distinct(flights)
+    require_distinct(flights)
     return flights
 
 

@@ -49,7 +49,7 @@ from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
 from ragg_runtime.instrument.layout import column_endings, sees
 from ragg_runtime.io import Flight
 from ragg_runtime.io.files import write_tables
-from ragg_runtime.io.record import GRADIENT, distinct
+from ragg_runtime.io.record import GRADIENT, require_distinct
 from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.model.model import Model, find_unit_factor, make_vector, scale_factor
 from ragg_runtime.signals.demodulators import COMPONENTS, find_demodulator, solve_tensor
@@ -371,7 +371,7 @@ def compensate(m: Loaded, flights: Sequence[Flight], kind: Kind, demodulator: st
     model, instrument = m.model, m.instrument
     saved = saved_calibration(m) if kind == "frozen" else None
     if saved is None:
-        distinct(flights)
+        require_distinct(flights)
     p = prepare(model, instrument, flights, kind, demodulator, saved)
     _require_alike(p)
     series, entries = [], []

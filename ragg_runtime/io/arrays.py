@@ -81,26 +81,26 @@ def make_tables(tree: Tree, place: str = "") -> list[DataTable]:
             arrays.append((name, *item) if isinstance(item, tuple) else (name, item))
     units, line, index = branches.pop("units", {}), tree.get("line"), tree.get("index_name", INDEX)
     title = write_cell(line) if isinstance(line, str | int | float) else place.rpartition("/")[2]
-    own = make_table(arrays, read_frame_units(units), line=title, part=place, index=read_heading(index)[0])
+    outer = make_table(arrays, read_frame_units(units), line=title, part=place, index=read_heading(index)[0])
     apart = []
     for t in (t for n, x in branches.items() for t in make_tables({"units": units, **x}, f"{place}/{n}")):
-        whole = {*SPECIFIC_FORCE, *ANGULAR_RATE} <= {*own.names} and "[" not in t.part
-        clocks = [{"time", "t"} & {n.casefold() for n in x.names} for x in (own, t)]
-        if len(t) != len(own) or {*own.names} & {*t.names} or whole or all(clocks):
+        whole = {*SPECIFIC_FORCE, *ANGULAR_RATE} <= {*outer.names} and "[" not in t.part
+        clocks = [{"time", "t"} & {n.casefold() for n in x.names} for x in (outer, t)]
+        if len(t) != len(outer) or {*outer.names} & {*t.names} or whole or all(clocks):
             apart.append(t)
             continue
         stem = t.part.removeprefix(place).strip("/")
-        more = [_name_inside(stem, c, own.names) for c in t.columns]
-        own = replace(own, columns=(*own.columns, *more), notes=(*own.notes, *t.notes))
-    found = [own, *apart] if own.columns else apart
-    return found if place else _join_channels(found)
+        more = [_name_inside(stem, c, outer.names) for c in t.columns]
+        outer = replace(outer, columns=(*outer.columns, *more), notes=(*outer.notes, *t.notes))
+    tables = [outer, *apart] if outer.columns else apart
+    return tables if place else _join_channels(tables)
 
 
-def _name_inside(stem: str, c: DataColumn, taken: Sequence[str]) -> DataColumn:
+def _name_inside(stem: str, c: DataColumn, names: Sequence[str]) -> DataColumn:
     """A column of a branch that belongs to a record: behind the branch's name, unless its own is the contract's and free. Of a name
     such as ``omega_x [deg/h]`` HDF5 makes a group.
     """
-    if c.name in SI_UNITS and c.name not in taken:
+    if c.name in SI_UNITS and c.name not in names:
         return c
     if "[" not in stem:
         return replace(c, name=f"{stem}_{c.name}".replace("/", "_"))
@@ -114,27 +114,27 @@ def _join_channels(tables: list[DataTable]) -> list[DataTable]:
     first = times[0] if len(times) > 1 else None
     if first is None or not all(c is not None and np.array_equal(c.values, first.values) for c in times):
         return tables
-    own = [
+    columns = [
         replace(c, name=t.part.rpartition("/")[2]) if len(t.columns) == 2 and c.name not in SI_UNITS else c
         for t, time in zip(tables, times, strict=True)
         for c in t.columns
         if c is not time
     ]
-    if len({c.name for c in own}) < len(own):
+    if len({c.name for c in columns}) < len(columns):
         return tables
-    return [replace(tables[0], columns=(replace(first, name="time"), *own), line=None, part="")]
+    return [replace(tables[0], columns=(replace(first, name="time"), *columns), line=None, part="")]
 
 
 def make_table(
-    arrays: Iterable[tuple[Any, ...]], given: Mapping[str, str] | None = None, **about: Any
+    arrays: Iterable[tuple[Any, ...]], units: Mapping[str, str] | None = None, **about: Any
 ) -> DataTable:
     """A table of those arrays that have the length of ``time`` (or the commonest one); notes say which have not.
 
     Each comes with its name and perhaps attributes: (n,), or (n, m), (m, n) with m up to ``WIDEST``, which give ``name_1`` ... ``name_m``
-    (or ``a_x`` ... of a vector ``a``, or what m texts in an attribute or another array, such as ``colheaders``, say). ``given`` are units
+    (or ``a_x`` ... of a vector ``a``, or what m texts in an attribute or another array, such as ``colheaders``, say). ``units`` are those
     by name, besides those in attributes and names; ``about`` further fields of the table.
     """
-    given, arrays = given or {}, [(n, read_array(x), dict(*a)) for n, x, *a in arrays]
+    units, arrays = units or {}, [(n, read_array(x), dict(*a)) for n, x, *a in arrays]
     numbers = [a for a in arrays if a[1].dtype.kind not in "OSUT"] or arrays  # texts may be names of columns
     sizes = [(read_heading(n)[0], max(x.shape)) for n, x, _ in numbers if _is_narrow(x.shape)]
     common = Counter(size for _, size in sizes if size > 1).most_common(1)
@@ -153,11 +153,11 @@ def make_table(
             continue
         title, unit = read_heading(name)
         logical = x.dtype == np.bool_ or attributes.get("MATLAB_class") == b"logical"
-        given_here = (_read_text(v) for k, v in attributes.items() if k.casefold() in ("units", "unit"))
-        said = next(filter(None, given_here), unit or "1" * logical)
-        for own, unit, part in _spread(title, values, length, {**lists, **attributes}):
-            unit_of = instants or given.get(own) or given.get(name) or given.get(title) or unit or said
-            columns.append(DataColumn(own, unit_of.strip(), part))
+        units_here = (_read_text(v) for k, v in attributes.items() if k.casefold() in ("units", "unit"))
+        own_unit = next(filter(None, units_here), unit or "1" * logical)
+        for label, unit, part in _spread(title, values, length, {**lists, **attributes}):
+            unit_of = instants or units.get(label) or units.get(name) or units.get(title) or unit or own_unit
+            columns.append(DataColumn(label, unit_of.strip(), part))
     notes = list(about.pop("notes", ()))
     if other:
         shown = ", ".join(other[:6]) + (" ..." if len(other) > 6 else "")
@@ -170,11 +170,11 @@ def read_array(x: Any) -> NDArray[Any]:
     if isinstance(x, np.ma.MaskedArray) and x.dtype.kind in "biuf":
         return np.where(np.ma.getmaskarray(x), np.nan, x.data)
     try:
-        found = np.asarray(x)
+        array = np.asarray(x)
     except ValueError:  # parts of several lengths
-        found = np.asarray(x, dtype=object)
-    letters = found.dtype == "S1" and found.ndim == 2  # texts of NetCDF 3
-    return np.array([b"".join(t) for t in found.tolist()]) if letters else found
+        array = np.asarray(x, dtype=object)
+    letters = array.dtype == "S1" and array.ndim == 2  # texts of NetCDF 3
+    return np.array([b"".join(t) for t in array.tolist()]) if letters else array
 
 
 def _is_narrow(shape: tuple[int, ...]) -> bool:
@@ -201,7 +201,7 @@ def _spread(
     plain = [name if width == 1 else f"{name}_{k}" for k in axes]
     titles = [read_heading(t) for t in next((lists[k] for k in _TITLES if k in lists), plain)]
     units = next((lists[k] for k in ("units", "unit") if k in lists), [""] * width)
-    return [(n, u or own, x) for (n, own), u, x in zip(titles, units, values.T, strict=True)]
+    return [(n, u or own_unit, x) for (n, own_unit), u, x in zip(titles, units, values.T, strict=True)]
 
 
 # --- values --------------------------------------------------------------------------------------------
@@ -223,40 +223,40 @@ def decode_values(values: NDArray[Any], attributes: Attributes) -> NDArray[Any] 
     meanings = _read_text(attributes.get("flag_meanings")).split()
     if meanings and kind in "iu" and values.ndim == 1:
         flags = np.atleast_1d(attributes.get("flag_values", np.arange(len(meanings)))).tolist()
-        known = dict(zip(flags, meanings, strict=False))
-        return np.array([known.get(int(v), str(v)) for v in values], dtype=object)
-    said = {n: x for n, v in attributes.items() if (x := np.ravel(v)).dtype.kind in "fiu" and x.size}
-    nothing = [v for n in ("_FillValue", "missing_value") for v in said.get(n, ()) if np.isfinite(v)]
+        texts = dict(zip(flags, meanings, strict=False))
+        return np.array([texts.get(int(v), str(v)) for v in values], dtype=object)
+    numbers = {n: x for n, v in attributes.items() if (x := np.ravel(v)).dtype.kind in "fiu" and x.size}
+    nothing = [v for n in ("_FillValue", "missing_value") for v in numbers.get(n, ()) if np.isfinite(v)]
     if (fill := _DEFAULT_FILL.get(values.dtype.str[1:])) is not None and "DIMENSION_LIST" in attributes:
         nothing.append(fill)
     missing = np.isin(values, np.array(nothing).astype(values.dtype))
-    packed = "scale_factor" in said or "add_offset" in said
+    packed = "scale_factor" in numbers or "add_offset" in numbers
     result: NDArray[Any] = values.astype(np.float64, copy=False)
     if packed:
-        result = result * said.get("scale_factor", [1.0])[0] + said.get("add_offset", [0.0])[0]
-    for name in (n for n in ("valid_range", "valid_min", "valid_max") if n in said):
+        result = result * numbers.get("scale_factor", [1.0])[0] + numbers.get("add_offset", [0.0])[0]
+    for name in (n for n in ("valid_range", "valid_min", "valid_max") if n in numbers):
         # of packed whole numbers the range is one of whole numbers, or of what they encode (NUG, appendix A)
-        encoded = packed and kind in "iu" and said[name].dtype.kind == "f"
-        x, limits = result if encoded else values, said[name]
+        encoded = packed and kind in "iu" and numbers[name].dtype.kind == "f"
+        x, limits = result if encoded else values, numbers[name]
         missing |= (x < limits[0]) & (name != "valid_max") | (x > limits[-1]) & (name != "valid_min")
     return np.where(missing, np.nan, result) if missing.any() else result
 
 
 def count_seconds(x: NDArray[Any]) -> tuple[Array, str]:
     """Instants or elapsed times in seconds, and their unit: instants count from the midnight before the first of them."""
-    there = x[~np.isnat(x)]
+    present = x[~np.isnat(x)]
     if x.dtype.kind == "m":
         return np.where(np.isnat(x), np.nan, x.astype("m8[ns]").astype(np.int64) / 1e9), "s"
-    midnight = there[0].astype("M8[D]") if len(there) else np.datetime64("1970-01-01")
+    midnight = present[0].astype("M8[D]") if len(present) else np.datetime64("1970-01-01")
     return count_seconds(x.astype("M8[ns]") - midnight)[0], f"s since {midnight}"
 
 
 def _decode_objects(cells: list[Any]) -> NDArray[Any] | None:
     """Numbers, if all of what is there are numbers; else texts; ``None`` where there is anything else."""
-    there = [c for c in cells if write_cell(c)]
-    if there and all(isinstance(c, Number) for c in there):
+    filled = [c for c in cells if write_cell(c)]
+    if filled and all(isinstance(c, Number) for c in filled):
         return np.array([float(c) if isinstance(c, SupportsFloat) else np.nan for c in cells])
-    if not all(isinstance(c, str | bytes | Number) or hasattr(c, "isoformat") for c in there):
+    if not all(isinstance(c, str | bytes | Number) or hasattr(c, "isoformat") for c in filled):
         return None
     return np.array([write_cell(c) for c in cells], dtype=object)
 
@@ -270,12 +270,12 @@ def _read_text(value: Any) -> str:
 def read_frame_units(attributes: Mapping[Any, Any]) -> dict[str, str]:
     """Units by name: as a DataFrame carries them in ``attrs``, under ``units``, or name -> unit or name -> {units: unit}."""
     inside = attributes.get("units")
-    found = {}
+    units = {}
     for name, unit in (inside if isinstance(inside, Mapping) else attributes).items():
         value = unit.get("units", unit.get("unit")) if isinstance(unit, Mapping) else unit
         if isinstance(value, str):
-            found[str(name)] = value.strip()
-    return found
+            units[str(name)] = value.strip()
+    return units
 
 
 # --- in memory -----------------------------------------------------------------------------------------
@@ -361,7 +361,7 @@ def read_parquet(path: Path) -> list[DataTable]:
         require_memory(path, 8.0 * file.metadata.num_rows * len(schema))
         table = file.read()
         about = schema.metadata or {}
-        given = read_frame_units(json.loads(about.get(b"PANDAS_ATTRS", b"{}")))
+        units = read_frame_units(json.loads(about.get(b"PANDAS_ATTRS", b"{}")))
         labels = json.loads(about.get(b"pandas", b"{}")).get("index_columns", [])
     while any(map(pa.types.is_struct, table.schema.types)):  # the component x of a vector a is a column a.x
         table = table.flatten()
@@ -370,9 +370,9 @@ def read_parquet(path: Path) -> list[DataTable]:
         unnamed, joined = field.name.startswith("__index_level_"), field.name.replace(".", "_")
         name = INDEX if unnamed else joined if joined in SI_UNITS else field.name
         index = read_heading(name)[0] if unnamed or field.name in labels else index
-        said = read_unit(field) or "1" * pa.types.is_boolean(field.type)
-        arrays.append((name, convert_arrow(values), {"units": said}))
-    return [make_table(arrays, given, index=index)]
+        own_unit = read_unit(field) or "1" * pa.types.is_boolean(field.type)
+        arrays.append((name, convert_arrow(values), {"units": own_unit}))
+    return [make_table(arrays, units, index=index)]
 
 
 def convert_arrow(column: pa.ChunkedArray) -> NDArray[Any]:
@@ -426,21 +426,21 @@ def read_hdf5(path: Path) -> list[DataTable]:
         return make_tables(_read_group(file, {file}))
 
 
-def _read_group(group: h5py.Group, known: set[h5py.HLObject]) -> dict[str, Any]:
+def _read_group(group: h5py.Group, visited: set[h5py.HLObject]) -> dict[str, Any]:
     """What a group holds, everything once: not MATLAB's and PyTables' own, nor links to elsewhere in this file or to another."""
     import h5py
 
     line = write_cell(read_attributes(group).get("line"))
     tree: dict[str, Any] = {"line": line} if line else {}
-    own = [n for n in group if isinstance(group.get(n, getlink=True), h5py.HardLink)]
-    items = {n: x for n in own if not n.startswith(("#", "_i_")) and (x := group[n]) not in known}
-    known.update(items.values())
+    links = [n for n in group if isinstance(group.get(n, getlink=True), h5py.HardLink)]
+    items = {n: x for n in links if not n.startswith(("#", "_i_")) and (x := group[n]) not in visited}
+    visited.update(items.values())
     columns = {n: x for n, x in items.items() if isinstance(x, h5py.Dataset) and _is_column(x)}
     if {"axis1", "block0_items"} <= columns.keys():
         return tree | _read_blocks(columns)
     for name, item in items.items():
         if isinstance(item, h5py.Group):
-            tree[name] = _read_group(item, known)
+            tree[name] = _read_group(item, visited)
         elif isinstance(item, h5py.Dataset) and (text := _read_matlab_text(item)):
             tree[name] = text
         elif name in columns and item.dtype.names is None:
@@ -457,12 +457,12 @@ def _read_blocks(arrays: Mapping[str, h5py.Dataset]) -> dict[str, Any]:
     """A DataFrame in the fixed format of pandas: its index, and blocks of columns beside their titles."""
     index = write_cell(arrays["axis1"].attrs.get("name"))
     index = INDEX if index in ("", "N.") else index  # a pickled None
-    found: dict[str, Any] = {"index_name": index}
+    tree: dict[str, Any] = {"index_name": index}
     for name in ("axis1", *(n for n in arrays if n.endswith("_values"))):
-        own, titles = read_attributes(arrays[name]), arrays[name.replace("_values", "_items")][()]
-        values = _read_instants(arrays[name][()], own.get("kind", own.get("value_type")))
-        found[index if name == "axis1" else name] = (values, {"columns": titles})
-    return found
+        attributes, titles = read_attributes(arrays[name]), arrays[name.replace("_values", "_items")][()]
+        values = _read_instants(arrays[name][()], attributes.get("kind", attributes.get("value_type")))
+        tree[index if name == "axis1" else name] = (values, {"columns": titles})
+    return tree
 
 
 def _is_column(data: h5py.Dataset) -> bool:
@@ -488,11 +488,11 @@ def _read_matlab_text(data: h5py.Dataset) -> str:
 
 def read_attributes(thing: h5py.Group | h5py.Dataset) -> dict[str, Any]:
     """The attributes of a dataset or group, as far as h5py can read them."""
-    found = {}
+    attributes = {}
     for name in list(thing.attrs):
         with contextlib.suppress(OSError, RuntimeError, TypeError, ValueError, KeyError):
-            found[str(name)] = thing.attrs[name]
-    return found
+            attributes[str(name)] = thing.attrs[name]
+    return attributes
 
 
 def _read_records(data: h5py.Dataset, index: str) -> dict[str, tuple[Any, Attributes]]:
@@ -501,7 +501,7 @@ def _read_records(data: h5py.Dataset, index: str) -> dict[str, tuple[Any, Attrib
     fields = whole.dtype.names
     listed = np.ravel(attributes.get("units", attributes.get("unit", "")))
     folded = {n.casefold(): v for n, v in attributes.items()}
-    found: dict[str, tuple[Any, Attributes]] = {}
+    arrays: dict[str, tuple[Any, Attributes]] = {}
     for k, name in enumerate(fields):
         keys = [f"{n}_{e}".casefold() for n in (name, f"FIELD_{k}") for e in ("units", "unit")]
         unit = listed[k] if len(listed) == len(fields) else next((folded[n] for n in keys if n in folded), "")
@@ -509,8 +509,8 @@ def _read_records(data: h5py.Dataset, index: str) -> dict[str, tuple[Any, Attrib
         titles = [] if name == INDEX else _read_pickled_names(kind)
         values = _read_instants(whole[name], kind if name == INDEX else attributes.get(f"{name}_dtype"))
         title = titles[0] if len(titles) == 1 and values.ndim == 1 else name
-        found[index if name == INDEX else title] = (values, {"units": write_cell(unit), "columns": titles})
-    return found
+        arrays[index if name == INDEX else title] = (values, {"units": write_cell(unit), "columns": titles})
+    return arrays
 
 
 def _read_instants(values: NDArray[Any], kind: object) -> NDArray[Any]:
@@ -541,5 +541,5 @@ def read_matlab(path: Path) -> list[DataTable]:
 
     with report_damage(path, "MATLAB"):
         require_memory(path, 8.0 * sum(math.prod(shape) for _, shape, _ in whosmat(path)))
-        found = loadmat(path, mat_dtype=False, simplify_cells=True)
-        return make_tables({n: v for n, v in found.items() if not n.startswith("__")})
+        variables = loadmat(path, mat_dtype=False, simplify_cells=True)
+        return make_tables({n: v for n, v in variables.items() if not n.startswith("__")})

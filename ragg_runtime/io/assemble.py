@@ -44,7 +44,7 @@ _TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplac
 
 
 def make_flight(
-    made: DataTable,
+    table: DataTable,
     g0: float,
     *,
     need_output: bool = True,
@@ -55,7 +55,7 @@ def make_flight(
 
     Parameters
     ----------
-    made
+    table
         Columns (n,) with their units.
     g0
         The g of these units, m/s^2.
@@ -72,19 +72,19 @@ def make_flight(
         If a column is missing, has no unit or another one, if the record is not uniformly sampled, or half of the file's rows or more
         lack something: the rest must not make a model look adequate.
     """
-    _require_names(made, NEEDED, "the motion needs")
-    if any(n in made.names for n in ANGULAR_ACCELERATION):
-        _require_names(made, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
-    kept = tuple(c for c in made.columns if is_column(c.name) and c.name not in leave)
-    made = replace(made, columns=kept, notes=(*made.notes, *_pass_over(made.names)))
-    si, si_units = _convert(made, g0, accelerometers)
+    _require_names(table, NEEDED, "the motion needs")
+    if any(n in table.names for n in ANGULAR_ACCELERATION):
+        _require_names(table, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
+    kept = tuple(c for c in table.columns if is_column(c.name) and c.name not in leave)
+    table = replace(table, columns=kept, notes=(*table.notes, *_pass_over(table.names)))
+    si, si_units = _convert(table, g0, accelerometers)
     doubled = [*_leave_out_doubled(si), *_leave_out_misplaced(si)]
-    grid = make_grid(si.pop("time"), made.place)
-    notes = [*made.notes, *doubled, *_leave_out_impossible(si, si_units), *grid.notes]
+    grid = make_grid(si.pop("time"), table.place)
+    notes = [*table.notes, *doubled, *_leave_out_impossible(si, si_units), *grid.notes]
     placed = {c: _place(si.pop(c), grid) for c in [*si]}  # of a day at 100 Hz each is 70 MB
-    _drop_empty(placed, notes, made.place)
+    _drop_empty(placed, notes, table.place)
     if need_output:
-        _require_output(replace(made, notes=tuple(notes)), ("time", *placed), accelerometers)
+        _require_output(replace(table, notes=tuple(notes)), ("time", *placed), accelerometers)
     outputs = {c: placed.pop(c) for c in (*accelerometers.columns, *DEMODULATED) if c in placed}
     _interpolate_auxiliaries(placed, si_units, grid, notes)
     notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
@@ -99,20 +99,20 @@ def make_flight(
         notes=tuple(notes),
         valid=valid,
         units=si_units,
-        written={c.name: c.unit for c in made.columns},
-        demodulation=made.demodulation,
-        instants=made.instants,
-        origin=made.origin,
+        written={c.name: c.unit for c in table.columns},
+        demodulation=table.demodulation,
+        instants=table.instants,
+        origin=table.origin,
         lacking=_find_lacking_rates(placed),
     )
     if ANGULAR_ACCELERATION[0] not in channels:
         flight = replace(derive_acceleration(flight), notes=(*notes, NOTE))
     used = int(np.sum(flight.valid))
-    if used <= (1 - MOST_UNUSED) * len(made):
+    if used <= (1 - MOST_UNUSED) * len(table):
         raise UserError(
             "most samples of the flight are incomplete",
-            where=made.place,
-            found=f"{len(made) - used} of {len(made)} samples cannot be used ({'; '.join(flight.notes)})",
+            where=table.place,
+            found=f"{len(table) - used} of {len(table)} samples cannot be used ({'; '.join(flight.notes)})",
             expected=f"fewer than {100 * MOST_UNUSED:.0f} % without a value",
             remedy="record all columns at one rate, or resample the file to the lowest rate needed",
         )
@@ -141,8 +141,8 @@ def derive_acceleration(x: Flight, lost: Mask | None = None) -> Flight:
     bridged = (predict_missing(x.channels[n], ~lacking) for n in ANGULAR_RATE)
     rates = [np.where(gap, np.nan, v) for v in bridged]
     slopes, sure = derive_accelerations(rates, x.time)
-    made = {n: bridge_gaps(v, np.isfinite(v)) for n, v in zip(ANGULAR_ACCELERATION, slopes, strict=True)}
-    return replace(x, channels={**x.channels, **made}, valid=x.valid & sure, lacking=lacking)
+    omegadot = {n: bridge_gaps(v, np.isfinite(v)) for n, v in zip(ANGULAR_ACCELERATION, slopes, strict=True)}
+    return replace(x, channels={**x.channels, **omegadot}, valid=x.valid & sure, lacking=lacking)
 
 
 # --- columns and units ---------------------------------------------------------------------------------
@@ -156,15 +156,15 @@ def _pass_over(names: Sequence[str]) -> list[str]:
 
 
 def _convert(
-    made: DataTable, g0: float, accelerometers: Accelerometers
+    table: DataTable, g0: float, accelerometers: Accelerometers
 ) -> tuple[dict[str, Array], dict[str, str]]:
     """The columns in SI, NaN for what is beyond all bounds, and their units; UserError if one has no unit or another one."""
     fixed = {**SI_UNITS, **dict.fromkeys(accelerometers.columns, "V")}
     fixed |= {d.angle_column: "rad" for d in accelerometers.discs}
-    known = units(g0)
-    found, si_units = {}, {}
-    for c in made.columns:
-        where = at(made.place, f"column {c.name!r}")
+    registry = units(g0)
+    columns, si_units = {}, {}
+    for c in table.columns:
+        where = at(table.place, f"column {c.name!r}")
         if not c.unit:
             raise UserError(
                 "the column has no unit",
@@ -174,11 +174,11 @@ def _convert(
                 remedy="write the unit; a pure number has the unit 1; none is guessed. Or describe the columns "
                 "once for all files: ragg map FLIGHT -o mapping.toml",
             )
-        si_units[c.name] = fixed[c.name] if c.name in fixed else known.base_unit(c.unit, where)
-        values = known.to_si(c.values, c.unit, si_units[c.name], where)
+        si_units[c.name] = fixed[c.name] if c.name in fixed else registry.base_unit(c.unit, where)
+        values = registry.to_si(c.values, c.unit, si_units[c.name], where)
         with np.errstate(invalid="ignore"):
-            found[c.name] = np.where(np.abs(values) < ENDLESS, values, np.nan)
-    return found, si_units
+            columns[c.name] = np.where(np.abs(values) < ENDLESS, values, np.nan)
+    return columns, si_units
 
 
 def _leave_out_doubled(si: dict[str, Array]) -> list[str]:
@@ -223,16 +223,16 @@ def _leave_out_impossible(si: dict[str, Array], si_units: Mapping[str, str]) -> 
     return notes
 
 
-def _require_names(made: DataTable, needed: Sequence[str], what: str) -> None:
-    missing = [n for n in needed if n not in made.names]
+def _require_names(table: DataTable, needed: Sequence[str], what: str) -> None:
+    missing = [n for n in needed if n not in table.names]
     if not missing:
         return
-    spare = [n for n in made.names if n not in SI_UNITS]
+    spare = [n for n in table.names if n not in SI_UNITS]
     near = did_you_mean(missing[0], spare) if len(missing) == 1 else None
     raise UserError(
         f"the column{'s' * (len(missing) > 1)} {', '.join(missing)} {'are' if missing[1:] else 'is'} missing",
-        where=made.place,
-        found=_list_columns(made, made.names),
+        where=table.place,
+        found=_list_columns(table, table.names),
         expected=f"{what} " + ", ".join(needed),
         remedy=f"is {near[13:-1]} meant for {missing[0]}?"
         if near
@@ -240,13 +240,13 @@ def _require_names(made: DataTable, needed: Sequence[str], what: str) -> None:
     )
 
 
-def _list_columns(made: DataTable, names: Collection[str]) -> str:
-    told = [n for n in made.notes if n.startswith(("skipped,", TWO_ROWS)) or n.endswith("; it is left out")]
+def _list_columns(table: DataTable, names: Collection[str]) -> str:
+    notes = [n for n in table.notes if n.startswith(("skipped,", TWO_ROWS)) or n.endswith("; it is left out")]
     columns = f"the columns {', '.join(filter(is_column, names))}"
-    return "; ".join([columns, *told[:6], *_pass_over(made.names)])
+    return "; ".join([columns, *notes[:6], *_pass_over(table.names)])
 
 
-def _require_output(made: DataTable, names: Collection[str], a: Accelerometers) -> None:
+def _require_output(table: DataTable, names: Collection[str], a: Accelerometers) -> None:
     if any(o.name in names or a.voltages(o, names) is not None for o in a.outputs):
         return
     if len(a.outputs) == 1 and all(n in names for n in DEMODULATED):
@@ -256,8 +256,8 @@ def _require_output(made: DataTable, names: Collection[str], a: Accelerometers) 
     near = (did_you_mean(n, (*a.columns, *DEMODULATED)) for n in names if n not in SI_UNITS)
     raise UserError(
         "the instrument's output is missing",
-        where=made.place,
-        found=_list_columns(made, names),
+        where=table.place,
+        found=_list_columns(table, names),
         expected=f"{a.output_names[0]}, or {volts}; {further}",
         remedy=next(filter(None, near), None),
     )
@@ -281,9 +281,9 @@ def _place(values: Array, grid: Grid) -> Array:
     """A column at the samples of a grid, NaN where the file has none."""
     if len(values) == len(grid.time):
         return values
-    found = np.full(len(grid.time), np.nan)
-    found[grid.index] = values
-    return found
+    column = np.full(len(grid.time), np.nan)
+    column[grid.index] = values
+    return column
 
 
 def _find_valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, notes: list[str]) -> Mask:
@@ -324,9 +324,9 @@ def _derive_outputs(outputs: dict[str, Array], notes: list[str], a: Acceleromete
             outputs[o.name] = sum_
             notes.append(f"{o.name} is derived: {formula}")
             continue
-        there = np.isfinite(sum_) & np.isfinite(outputs[o.name])
-        own = outputs[o.name][there]
-        difference, size = (float(np.median(np.abs(x))) if len(x) else 0.0 for x in (sum_[there] - own, own))
+        present = np.isfinite(sum_) & np.isfinite(outputs[o.name])
+        y = outputs[o.name][present]
+        difference, size = (float(np.median(np.abs(x))) if len(x) else 0.0 for x in (sum_[present] - y, y))
         if difference > 1e-3 * size:
             notes.append(
                 f"{o.name} differs from {formula} by {100 * difference / max(size, difference / 10):.2g} %: "
@@ -335,9 +335,9 @@ def _derive_outputs(outputs: dict[str, Array], notes: list[str], a: Acceleromete
 
 
 def _check_gradient(channels: dict[str, Array], notes: list[str]) -> None:
-    given = [n for n in GRADIENT if n in channels]
-    if given and len(given) < len(GRADIENT):
-        notes.append("of the gravity gradient only " + ", ".join(given) + " are given")
+    components = [n for n in GRADIENT if n in channels]
+    if components and len(components) < len(GRADIENT):
+        notes.append("of the gravity gradient only " + ", ".join(components) + " are given")
     if {"Gamma_xx", "Gamma_yy", "Gamma_zz"} <= channels.keys():
         trace = float(np.max(np.abs(sum(channels[f"Gamma_{k}{k}"] for k in "xyz"))))
         if trace > _TRACE_NOTED:
@@ -392,17 +392,17 @@ def _interpolate_coarse(x: Array) -> tuple[Array, float | None]:
     Where it moves the sensor was half way between the two: of temperatures in steps of 0.06 and 0.1 K that leaves 0.03 to 0.14 of a
     step, rms, instead of 0.29. Any other as it is.
     """
-    there = np.flatnonzero(np.isfinite(x))
-    v = x[there]
+    present = np.flatnonzero(np.isfinite(x))
+    v = x[present]
     at = np.flatnonzero(np.diff(v))
     if not FEWEST_LEVELS <= len(at) + 1 <= 1 + len(v) / 2 or len(np.unique(v)) < FEWEST_LEVELS:
         return x, None
     step = find_step(v)
     if step is None or np.ptp(v) > MOST_LEVELS * step or np.median(np.abs(np.diff(v)[at])) > 1.5 * step:
         return x, None
-    found, knots = np.array(x), np.r_[0, at + 0.5, len(v) - 1]
-    found[there] = np.interp(np.arange(len(v)), knots, np.r_[v[0], (v[at] + v[at + 1]) / 2, v[-1]])
-    return found, step
+    smooth, knots = np.array(x), np.r_[0, at + 0.5, len(v) - 1]
+    smooth[present] = np.interp(np.arange(len(v)), knots, np.r_[v[0], (v[at] + v[at + 1]) / 2, v[-1]])
+    return smooth, step
 
 
 def _interpolate_auxiliaries(
@@ -416,17 +416,17 @@ def _interpolate_auxiliaries(
                 notes.append(
                     f"{name}: recorded in steps of {step:.3g} {si_units[name]}; interpolated between them"
                 )
-        there = np.isfinite(placed[name])
-        known = int(np.sum(there))
-        if not 0 < known < (1 - SPARSE) * len(grid.index):
+        present = np.isfinite(placed[name])
+        size = int(np.sum(present))
+        if not 0 < size < (1 - SPARSE) * len(grid.index):
             continue
-        time, values = grid.time[there], placed[name][there]
+        time, values = grid.time[present], placed[name][present]
         values = np.unwrap(values) if si_units[name] == "rad" else values
-        made, lacking = _interpolate_slow(time, values, grid.time), count(len(grid.index) - known, "sample")
-        if isinstance(made, str):
-            notes.append(f"{name}: without a value at {lacking}; left out: {made}")
+        x, lacking = _interpolate_slow(time, values, grid.time), count(len(grid.index) - size, "sample")
+        if isinstance(x, str):
+            notes.append(f"{name}: without a value at {lacking}; left out: {x}")
             del placed[name]
         else:
-            placed[name] = made
-            every = float(np.median(np.diff(time)))
-            notes.append(f"{name}: recorded every {every:.4g} s; interpolated (at {lacking})")
+            placed[name] = x
+            spacing = float(np.median(np.diff(time)))
+            notes.append(f"{name}: recorded every {spacing:.4g} s; interpolated (at {lacking})")

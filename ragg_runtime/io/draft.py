@@ -95,32 +95,32 @@ def draft_mapping(path: Path) -> Draft:
     line = next((n for n in table.names if _has(roles[n], "line")), None) if len(tables) == 1 else None
     time, used = _draft_time(table, roles, odd, questions)
     rest = [c for c in table.columns if c.name not in (line, *used)]
-    taken = _take_roles(rest, roles)
-    unused = [c for c in rest if c.name not in {c.name for c, _ in taken.values()}]
-    texts = [f"{c.name}: no numbers ({_example(c)}), not used" for c in unused if not c.is_number]
-    lacking = [n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE) if n not in taken]
-    if not any(n.startswith(OUTPUTS) for n in taken):
+    channels = _take_roles(rest, roles)
+    unused = [c for c in rest if c.name not in {c.name for c, _ in channels.values()}]
+    texts = [f"{c.name}: no numbers ({_show_cell(c)}), not used" for c in unused if not c.is_number]
+    lacking = [n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE) if n not in channels]
+    if not any(n.startswith(OUTPUTS) for n in channels):
         lacking.append("the output (G_out, V_1 ... or inline and cross)")
-    said = [f"no column is recognised as {', '.join(lacking)}: name it in [columns]"] if lacking else []
+    remarks = [f"no column is recognised as {', '.join(lacking)}: name it in [columns]"] if lacking else []
     lines = [
-        f"# How ragg reads {_quoted(path.name)}: drafted by `ragg map`; check every line.",
+        f"# How ragg reads {_quote(path.name)}: drafted by `ragg map`; check every line.",
         '# certain: ragg\'s own name; likely: a usual name; guess: check it. Replace every "?".',
-        *(f"# {_quoted(n)}" for n in table.notes),
+        *(f"# {_quote(n)}" for n in table.notes),
         "",
         *_draft_file(table, tables, line),
         *("[time]", *time, "", "[columns]"),
-        *(_draft_channel(n, c, role, odd, questions) for n, (c, role) in taken.items()),
+        *(_draft_channel(n, c, role, odd, questions) for n, (c, role) in channels.items()),
     ]
     if unused:
         lines += ["", "# Not used (any column can be used as an auxiliary channel of any name):"]
     for c in unused:
-        kept = f"{_key(c.name)} = {_entry(c.name, c.unit or UNKNOWN)}"
-        lines.append(f"# {kept}" if c.is_number else f"# no numbers: {_quoted(c.name)} ({_example(c)})")
+        kept = f"{_make_key(c.name)} = {_write_entry(c.name, c.unit or UNKNOWN)}"
+        lines.append(f"# {kept}" if c.is_number else f"# no numbers: {_quote(c.name)} ({_show_cell(c)})")
     return Draft(
-        text="\n".join([*lines, *(f"# {x}" for x in said)]) + "\n",
+        text="\n".join([*lines, *(f"# {x}" for x in remarks)]) + "\n",
         questions=tuple(questions),
-        sure=MappingProxyType({n: role.sure for n, (_, role) in taken.items()}),
-        notes=(*table.notes, *texts, *said),
+        sure=MappingProxyType({n: role.sure for n, (_, role) in channels.items()}),
+        notes=(*table.notes, *texts, *remarks),
     )
 
 
@@ -148,7 +148,7 @@ def _read_numbers(table: DataTable) -> tuple[DataTable, dict[str, list[str]]]:
             numbers, unit, spoiled = parse_quantities(c.values, table.decimal)
             cells = sorted({*c.values[spoiled]})
             if len(cells) <= _FEW and np.mean(np.isfinite(numbers)) > 0.5:
-                written = ", ".join(f'"{_quoted(t)}"' for t in cells)
+                written = ", ".join(f'"{_quote(t)}"' for t in cells)
                 odd[c.name] = [f"null = [{written}]"] * bool(cells)
                 c = replace(c, unit=unit or c.unit, values=numbers)
         columns.append(c)
@@ -159,12 +159,12 @@ def _draft_file(table: DataTable, tables: Sequence[DataTable], name: str | None)
     """Which part of the file, and which lines."""
     above, lines = [], []
     if len(tables) > 1:
-        shown = ", ".join(f'"{_quoted(str(t.line))}"' for t in tables[:6])
+        shown = ", ".join(f'"{_quote(str(t.line))}"' for t in tables[:6])
         above = [f"# {len(tables)} lines; [file] lines = [...] picks some: {shown}", ""]
     if table.part:
-        lines.append(f'part = "{_quoted(table.part)}"  # likely: the file holds several tables that differ')
+        lines.append(f'part = "{_quote(table.part)}"  # likely: the file holds several tables that differ')
     if name is not None:
-        lines.append(f'line = "{_quoted(name)}"  # likely: names the flight lines; remove it if it does not')
+        lines.append(f'line = "{_quote(name)}"  # likely: names the flight lines; remove it if it does not')
     return [*above, "[file]", *lines, ""] if lines else above
 
 
@@ -179,13 +179,13 @@ def _draft_time(
     table: DataTable, roles: Roles, odd: Mapping[str, Sequence[str]], questions: list[str]
 ) -> tuple[list[str], tuple[str, ...]]:
     """The lines of [time], and the names of its columns."""
-    if (found := _find_instants(table, roles)) is not None:
-        names, form, sure = found
+    if (instants := _find_instants(table, roles)) is not None:
+        names, form, sure = instants
         asked = ""
         if form == UNKNOWN:
-            asked = f'is {_example(table.column(names[0]))} "d/m/y" or "m/d/y"?'
+            asked = f'is {_show_cell(table.column(names[0]))} "d/m/y" or "m/d/y"?'
             questions.append(f"[time] format: {asked}")
-        shown = ", ".join(f'"{_quoted(n)}"' for n in names)
+        shown = ", ".join(f'"{_quote(n)}"' for n in names)
         column = shown if len(names) == 1 else f"[{shown}]"
         return [f"column = {column}  # {sure}", f'format = "{form}"' + f"  # {asked}" * bool(asked)], names
     numbers = [c for c in table.columns if not c.is_text]
@@ -198,7 +198,7 @@ def _draft_time(
         return [f'column = "{UNKNOWN}"  # {remark}', f'unit = "{UNKNOWN}"'], ()
     c = min(fits, key=lambda c: (c.name != "time", np.mean(np.diff(c.values) > 0) < 0.5, not c.unit))
     unit, remark = _find_unit(replace(c, unit=c.unit.split(" since ")[0]), "time", questions, "[time]")
-    lines = [f'column = "{_quoted(c.name)}"  # {"certain" if c.name == "time" else "likely"}']
+    lines = [f'column = "{_quote(c.name)}"  # {"certain" if c.name == "time" else "likely"}']
     return [*lines, f'unit = "{unit}"' + f"  # {remark}" * bool(remark), *odd.get(c.name, ())], (c.name,)
 
 
@@ -210,9 +210,9 @@ def _find_instants(table: DataTable, roles: Roles) -> Instants | None:
     if "week" in by_role and "second_of_week" in by_role:
         return (by_role["week"].name, by_role["second_of_week"].name), "gps", "likely: GPS week and seconds"
     texts = sorted((c for c in table.columns if c.is_text), key=lambda c: not _has(roles[c.name], "time"))
-    parts = [(c, find_parts(_first_cell(c))) for c in texts]
+    parts = [(c, find_parts(_find_first_cell(c))) for c in texts]
     parts += [(c, (True, True)) for c in table.columns if not c.is_text and are_packed(c.values)]
-    found: list[Instants] = [
+    candidates: list[Instants] = [
         ((c.name,), _find_form(c), "certain: a date and a time") for c, both in parts if all(both)
     ]
     date, clock = by_role.get("date"), by_role.get("clock")
@@ -220,13 +220,13 @@ def _find_instants(table: DataTable, roles: Roles) -> Instants | None:
         form = _find_form(date).replace("iso", "date clock")
         of_their_own = len(np.unique(date.values)) == len(table)
         pair = (date.name, clock.name), form, "likely: a date and a time of the day"
-        found.insert(len(found) if of_their_own else 0, pair)
-    found += [
+        candidates.insert(len(candidates) if of_their_own else 0, pair)
+    candidates += [
         ((c.name,), "clock", "certain: a time of the day, or an elapsed time")
         for c, (_, timed) in parts
         if timed
     ]
-    return next(iter(found), None)
+    return next(iter(candidates), None)
 
 
 def _find_form(c: DataColumn) -> str:
@@ -236,13 +236,13 @@ def _find_form(c: DataColumn) -> str:
     return {"ymd": "iso", "dmy": "d/m/y", "mdy": "m/d/y"}.get(find_order(c.values) or "", UNKNOWN)
 
 
-def _first_cell(c: DataColumn) -> str:
+def _find_first_cell(c: DataColumn) -> str:
     """The first cell of a column that is not empty, as text."""
     return next((str(v) for v in c.values if str(v)), "")
 
 
-def _example(c: DataColumn) -> str:
-    return _quoted(repr(_first_cell(c)[:40])) if c.is_text else "dates"
+def _show_cell(c: DataColumn) -> str:
+    return _quote(repr(_find_first_cell(c)[:40])) if c.is_text else "dates"
 
 
 # --- channels ------------------------------------------------------------------------------------------
@@ -251,19 +251,19 @@ def _example(c: DataColumn) -> str:
 def _take_roles(columns: Sequence[DataColumn], roles: Roles) -> dict[str, tuple[DataColumn, Role]]:
     """Channel -> its column: the surest name wins, then the order of the file."""
     numbers = [c for c in columns if c.is_number]
-    found = [(c, r) for c in numbers for r in roles[c.name][:1] if not _has(roles[c.name], *_TIMES)]
-    taken: dict[str, tuple[DataColumn, Role]] = {}
-    for c, role in sorted(found, key=lambda x: x[1].rank):
-        taken.setdefault(role.name, (c, role))
-    taken |= _take_by_unit([c for c in numbers if not roles[c.name]], taken)
-    return {n: taken[n] for n in dict.fromkeys([*SI_UNITS, *taken]) if n in taken}
+    candidates = [(c, r) for c in numbers for r in roles[c.name][:1] if not _has(roles[c.name], *_TIMES)]
+    channels: dict[str, tuple[DataColumn, Role]] = {}
+    for c, role in sorted(candidates, key=lambda x: x[1].rank):
+        channels.setdefault(role.name, (c, role))
+    channels |= _take_by_unit([c for c in numbers if not roles[c.name]], channels)
+    return {n: channels[n] for n in dict.fromkeys([*SI_UNITS, *channels]) if n in channels}
 
 
 def _take_by_unit(
-    columns: Sequence[DataColumn], taken: Mapping[str, Any]
+    columns: Sequence[DataColumn], channels: Mapping[str, Any]
 ) -> dict[str, tuple[DataColumn, Role]]:
     """Channels that no usual name gives, in any language: the only columns with such a unit, with axes at their ends."""
-    found: dict[str, tuple[DataColumn, Role]] = {}
+    additions: dict[str, tuple[DataColumn, Role]] = {}
 
     def list_alike(name: str) -> list[DataColumn]:
         return [c for c in columns if c.unit and units(9.8).fits(c.unit, SI_UNITS[name])]
@@ -273,15 +273,15 @@ def _take_by_unit(
         for c in list_alike(names[0]):
             by_stem.setdefault(c.name[:-1], {})[c.name[-1].lower()] = c
         triads = [t for t in by_stem.values() if set(t) == set("xyz")]
-        if len(triads) == 1 and not taken.keys() & {*names}:
+        if len(triads) == 1 and not channels.keys() & {*names}:
             for n in names:
-                found[n] = triads[0][n[-1]], Role(n, "guess", why="by its unit and axis")
+                additions[n] = triads[0][n[-1]], Role(n, "guess", why="by its unit and axis")
     for name in ("G_out", "pressure"):
         alike = list_alike(name)
         beside = OUTPUTS if name == "G_out" else (name,)
-        if len(alike) == 1 and not any(n.startswith(beside) for n in taken):
-            found[name] = alike[0], Role(name, "guess", why="the only column with such a unit")
-    return found
+        if len(alike) == 1 and not any(n.startswith(beside) for n in channels):
+            additions[name] = alike[0], Role(name, "guess", why="the only column with such a unit")
+    return additions
 
 
 def _draft_channel(
@@ -291,35 +291,35 @@ def _draft_channel(
     unit, remark = _find_unit(c, name, questions, f"[columns] {name}")
     further = [f"scale = {role.scale:g}"] if role.scale != 1.0 else []
     comment = role.sure + (f": {role.why}" if role.why else "") + (f"; {remark}" if remark else "")
-    return f"{_key(name)} = {_entry(c.name, unit, *further, *odd.get(c.name, ()))}  # {comment}"
+    return f"{_make_key(name)} = {_write_entry(c.name, unit, *further, *odd.get(c.name, ()))}  # {comment}"
 
 
 def _find_unit(c: DataColumn, name: str, questions: list[str], where: str) -> tuple[str, str]:
     """The unit to write and a remark; a question where the file gives none or one that cannot be."""
     stem = re.sub(r"_[^_]+$", "", name)
     si = SI_UNITS.get(name) or (SI_UNITS.get(stem) if stem in DEMODULATED else None)
-    given = units(9.8).find_meant(c.unit, si) if c.unit and si else c.unit
-    if given and is_unit(given):
-        return _quoted(given), ""
+    unit = units(9.8).find_meant(c.unit, si) if c.unit and si else c.unit
+    if unit and is_unit(unit):
+        return _quote(unit), ""
     named = _take_unit(_fold(c.name))[1]
     if not c.unit and named and si is not None and units(9.8).fits(named, si):
         return named, "likely: from its name"
-    said = f"the file has {c.unit!r}, a wrong unit for it" if c.unit else "the file gives none"
-    questions.append(f"{where}: unit of {c.name!r} ({said})")
-    return UNKNOWN, _quoted(said)
+    reason = f"the file has {c.unit!r}, a wrong unit for it" if c.unit else "the file gives none"
+    questions.append(f"{where}: unit of {c.name!r} ({reason})")
+    return UNKNOWN, _quote(reason)
 
 
-def _entry(column: str, unit: str, *further: str) -> str:
-    parts = (f'column = "{_quoted(column)}"', f'unit = "{_quoted(unit)}"', *further)
+def _write_entry(column: str, unit: str, *further: str) -> str:
+    parts = (f'column = "{_quote(column)}"', f'unit = "{_quote(unit)}"', *further)
     return f"{{ {', '.join(parts)} }}"
 
 
-def _key(name: str) -> str:
+def _make_key(name: str) -> str:
     """A channel's name: the column's own, or one made of its letters."""
     return name if is_column(name) else ("c_" + re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_"))[:LONGEST]
 
 
-def _quoted(text: str) -> str:
+def _quote(text: str) -> str:
     """Text inside a TOML string or comment: no quotes, no lines, nothing that cannot be printed."""
     text = text.replace("\\", "\\\\").replace('"', '\\"')
     return "".join(c if c.isprintable() else f"\\u{min(ord(c), 0xFFFF):04x}" for c in text)
@@ -330,14 +330,14 @@ def _quoted(text: str) -> str:
 
 def _find_roles(columns: Sequence[str]) -> Roles:
     """What columns may be by their names without units: column -> its roles, the surest first."""
-    found = {c: _read_name(c) for c in columns}
-    taken = {(r.name, r.direction) for roles in found.values() for r in roles if r.direction}
+    by_column = {c: _read_name(c) for c in columns}
+    directions = {(r.name, r.direction) for roles in by_column.values() for r in roles if r.direction}
     axes: dict[tuple[str, str], tuple[str, str]] = {}
     for stem, frame in product(("a", "omega", "omegadot", "B"), reversed(_FRAMES)):
-        four = frame == ["1", "2", "3"] and (stem, "4") in taken  # the disc's own accelerometers
-        if all((stem, d) in taken for d in frame) and not four:
+        four = frame == ["1", "2", "3"] and (stem, "4") in directions  # the disc's own accelerometers
+        if all((stem, d) in directions for d in frame) and not four:
             axes |= {(stem, d): (x, ", ".join(frame)) for d, x in zip(frame, "xyz", strict=True)}
-    return {c: tuple(sorted(_turn(roles, axes), key=lambda r: r.rank)) for c, roles in found.items()}
+    return {c: tuple(sorted(_turn(roles, axes), key=lambda r: r.rank)) for c, roles in by_column.items()}
 
 
 def _turn(roles: Iterable[Role], axes: dict[tuple[str, str], tuple[str, str]]) -> Iterable[Role]:
@@ -359,10 +359,10 @@ def _read_name(column: str) -> list[Role]:
     scale = -1.0 if column.lstrip().startswith("-") else 1.0
     parts = re.split(r"[/.]", column.replace("'", ""))
     inner = ["_".join(parts[k:]) for k in range(len(parts))]
-    found: list[Role] = []
+    roles: list[Role] = []
     for text in (*inner, re.sub(r"\(.*\)", "", column)):  # perhaps without a remark in brackets
-        found += _read_scalars(text) or [replace(r, scale=scale) for r in _read_vectors(text)]
-    return found
+        roles += _read_scalars(text) or [replace(r, scale=scale) for r in _read_vectors(text)]
+    return roles
 
 
 def _read_scalars(name: str) -> list[Role]:
@@ -385,12 +385,12 @@ def _read_vectors(name: str) -> list[Role]:
                 continue  # a letter in the middle
             rest = [w for w in f"{text[: m.start()]}_{text[m.end() :]}".split("_") if w]
             rest = [w for w in rest if not re.fullmatch(words, w) and not _NEUTRAL.fullmatch(w)]
-            given = [d for d in m.group(1, 2, 4, 5) if d]
-            given += [w for w in rest if re.fullmatch(_LONG, w) or w in ("xv", "yv", "zv")]
-            rest = [w for w in rest if w not in given]
-            if len(given) != 1 or any(map(_NO_READING.fullmatch, rest)):
+            directions = [d for d in m.group(1, 2, 4, 5) if d]
+            directions += [w for w in rest if re.fullmatch(_LONG, w) or w in ("xv", "yv", "zv")]
+            rest = [w for w in rest if w not in directions]
+            if len(directions) != 1 or any(map(_NO_READING.fullmatch, rest)):
                 continue
-            direction = _SHORT.get(given[0], given[0].replace("_", ""))
+            direction = _SHORT.get(directions[0], directions[0].replace("_", ""))
             return [Role(stem, "guess" if rest else sure, direction=direction)]
     return []
 

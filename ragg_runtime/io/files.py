@@ -33,7 +33,7 @@ from ragg_runtime.io.arrays import (
 )
 from ragg_runtime.io.assemble import make_flight
 from ragg_runtime.io.mapping import Mapped, join_parts, make_recordings, read_quantities
-from ragg_runtime.io.record import SI_UNITS, Flight, content, is_disc_angle
+from ragg_runtime.io.record import SI_UNITS, Flight, digest_content, is_disc_angle
 from ragg_runtime.io.sampling import make_grid
 from ragg_runtime.io.tables import DataColumn, DataTable
 from ragg_runtime.io.text_tables import read_csv, read_excel
@@ -138,9 +138,9 @@ def _read_file(path: Path) -> list[DataTable]:
         with open_regular(path) as stream:
             is_empty = not stream.read(1)
     except OSError as error:
-        found = "it does not exist" if isinstance(error, FileNotFoundError) else error.strerror
+        reason = "it does not exist" if isinstance(error, FileNotFoundError) else error.strerror
         remedy = "check its name, its folder and its permissions"
-        raise UserError("the flight file cannot be read", where=path, found=found, remedy=remedy) from None
+        raise UserError("the flight file cannot be read", where=path, found=reason, remedy=remedy) from None
     if is_empty:
         remedy = "the recording or the copy may have failed: get the file again"
         raise UserError("the flight file is empty", where=path, found="0 bytes", remedy=remedy)
@@ -177,13 +177,13 @@ def read_flights(
         Those of :func:`.assemble.make_flight`.
     """
     path = Path(source) if isinstance(source, str | Path) else None
-    made = read_recordings(source, mapping, name)
+    records = read_recordings(source, mapping, name)
     digest = None if path is None else file_digest(path)
-    title = name if path is None else flight_name(path)
+    title = name if path is None else name_flight(path)
     flights = []
-    for r in made:
-        x, own = make_flight(r, g0, **options), f"{title}:{r.line}" if len(made) > 1 else title
-        flights.append(replace(x, name=own, path=path, digest=digest or content(x)))
+    for r in records:
+        x, label = make_flight(r, g0, **options), f"{title}:{r.line}" if len(records) > 1 else title
+        flights.append(replace(x, name=label, path=path, digest=digest or digest_content(x)))
     return flights
 
 
@@ -203,7 +203,7 @@ def read_flight(source: Any, g0: float, *, line: str | None = None, **options: A
     )
 
 
-def flight_name(path: Path) -> str:
+def name_flight(path: Path) -> str:
     """The file's name without its ending; the folder's where the file is just called ``flight``."""
     stem = path.name[: len(path.name) - len(find_ending(path.name) or "")]
     folder = path.resolve().parent.name
@@ -221,8 +221,8 @@ def write_flight(flight: Flight, path: Path | str) -> None:
     series = {n: flight.channels[n] for n in ordered} | dict(flight.outputs)
     columns = [DataColumn("time", flight.units["time"], flight.time)]
     for name, values in series.items():
-        known = values if flight.valid.all() else np.where(flight.valid, values, np.nan)
-        columns.append(DataColumn(name, flight.units[name], known))
+        column = values if flight.valid.all() else np.where(flight.valid, values, np.nan)
+        columns.append(DataColumn(name, flight.units[name], column))
     write_tables(Path(path), [DataTable(tuple(columns))])
 
 
@@ -255,15 +255,15 @@ def convert(source: Path, target: Path, mapping: Mapped | None = None) -> dict[s
     if source.resolve() == target.resolve():
         raise UserError("a file cannot be converted into itself", where=source, remedy="name another file")
     find_format(target, write=True)  # before a long file is read for nothing
-    made = read_recordings(source, mapping)
-    if len(made) == 1:
-        made = [replace(made[0], line=None)]
-    names, bare = made[0].names, [c.name for c in made[0].columns if not c.unit]
-    notes = [n for r in made for n in r.notes]
+    lines = read_recordings(source, mapping)
+    if len(lines) == 1:
+        lines = [replace(lines[0], line=None)]
+    names, bare = lines[0].names, [c.name for c in lines[0].columns if not c.unit]
+    notes = [n for r in lines for n in r.notes]
     notes += [f"without a unit, as in the file: {', '.join(bare)}"] if bare else []
-    made = [_count_from_first(r, notes) for r in made]
-    write_tables(target, made)
-    counts = {"output": str(target), "lines": len(made), "rows": sum(map(len, made)), "columns": [*names]}
+    lines = [_count_from_first(r, notes) for r in lines]
+    write_tables(target, lines)
+    counts = {"output": str(target), "lines": len(lines), "rows": sum(map(len, lines)), "columns": [*names]}
     return {**counts, "notes": list(dict.fromkeys(notes))}
 
 
@@ -293,13 +293,13 @@ def describe_flight(path: Path | str, mapping: Mapped | None = None) -> dict[str
     Of a record that cannot be used as it is ``refused`` says why.
     """
     path = Path(path)
-    made = read_recordings(path, mapping)
+    records = read_recordings(path, mapping)
     return {
         "path": str(path),
         "sha256": file_digest(path),
         "format": find_format(path).name,
         "bytes": path.stat().st_size,
-        "records": [_describe_record(r, flight_name(path), len(made) > 1) for r in made],
+        "records": [_describe_record(r, name_flight(path), len(records) > 1) for r in records],
     }
 
 
@@ -338,7 +338,7 @@ def _describe_record(r: DataTable, name: str, several: bool) -> dict[str, Any]:
 
 
 def _describe_column(c: DataColumn) -> dict[str, Any]:
-    there = c.values[np.isfinite(c.values)]
-    ranges = ("minimum", there.min), ("maximum", there.max), ("mean", there.mean)
-    told = {"name": c.name, "unit": c.unit, "samples": len(there), "missing": len(c.values) - len(there)}
-    return told | {n: float(f()) if len(there) else None for n, f in ranges}
+    finite = c.values[np.isfinite(c.values)]
+    ranges = ("minimum", finite.min), ("maximum", finite.max), ("mean", finite.mean)
+    entry = {"name": c.name, "unit": c.unit, "samples": len(finite), "missing": len(c.values) - len(finite)}
+    return entry | {n: float(f()) if len(finite) else None for n, f in ranges}

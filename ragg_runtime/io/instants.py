@@ -103,7 +103,7 @@ def are_packed(values: Iterable[Any]) -> bool:
 def find_parts(text: str) -> tuple[bool, bool]:
     """Whether there is a date in a stamp, and whether a time."""
     m = _match(text.strip())
-    dated = m is not None and m["date"] is not None and _read_date(_date_in(m), "dmy") is not None
+    dated = m is not None and m["date"] is not None and _read_date(_join_date(m), "dmy") is not None
     return dated, m is not None and (m["h"] is not None or m["days"] is not None)
 
 
@@ -141,23 +141,23 @@ def read_epoch(date: str) -> datetime | None:
 
 def _count(total: Nanoseconds, dated: bool = True, notes: tuple[str, ...] = ()) -> Stamps:
     """Instants as seconds since the midnight before the first; times of the day (not ``dated``) go on over midnight."""
-    there = total != _NONE
-    if not there.any():
+    present = total != _NONE
+    if not present.any():
         return Stamps(np.full(len(total), np.nan), notes=notes)
     if not dated:
         return Stamps(_follow(total, _DAY), notes=notes)
-    first = int(total[there][0]) // _DAY
+    first = int(total[present][0]) // _DAY
     origin = (_EPOCH + timedelta(days=first)).replace(tzinfo=UTC)
-    return Stamps(np.where(there, (total - first * _DAY) / _SECOND, np.nan), origin=origin, notes=notes)
+    return Stamps(np.where(present, (total - first * _DAY) / _SECOND, np.nan), origin=origin, notes=notes)
 
 
 def _follow(total: Nanoseconds, period: int) -> Array:
     """Times that begin anew every day, or every hour, as seconds that go on."""
-    found, there = np.full(len(total), np.nan), total != _NONE
-    values = total[there]
+    seconds, present = np.full(len(total), np.nan), total != _NONE
+    values = total[present]
     again = np.cumsum(np.diff(values, prepend=values[:1]) < -(period // 2))
-    found[there] = (values + again * period) / _SECOND
-    return found
+    seconds[present] = (values + again * period) / _SECOND
+    return seconds
 
 
 def _write_clock(value: Any) -> str:
@@ -194,11 +194,11 @@ def _read_iso(values: Sequence[str]) -> Nanoseconds | None:
 def _read_texts(values: Sequence[str], order: str | None, where: str, row: Callable[[int], str]) -> Stamps:
     """Dates and times as people write them."""
     matches = {k: _match(t) for k, t in enumerate(values) if t not in MISSING}
-    known = {k: m for k, m in matches.items() if m is not None}
-    dates = dict.fromkeys(d for m in known.values() if (d := _date_in(m)))
+    readable = {k: m for k, m in matches.items() if m is not None}
+    dates = dict.fromkeys(d for m in readable.values() if (d := _join_date(m)))
     dated, days = bool(dates), dict[str, int | None]({"": 0})
     notes: tuple[str, ...] = ()
-    if dated and order is None and all(m and _date_in(m) for m in matches.values()):
+    if dated and order is None and all(m and _join_date(m) for m in matches.values()):
         order = find_order(dates)
         first = next(iter(dates))
         if order == "dmy" and _read_date(first, "ymd") not in (None, _read_date(first, "dmy")):
@@ -215,23 +215,23 @@ def _read_texts(values: Sequence[str], order: str | None, where: str, row: Calla
     days |= {d: _read_date(d, order or "dmy") for d in dates}
     total = np.full(len(values), _NONE)
     for k, m in matches.items():
-        day = None if m is None or bool(_date_in(m)) != dated else days[_date_in(m)]
+        day = None if m is None or bool(_join_date(m)) != dated else days[_join_date(m)]
         clock = None if m is None else _read_clock(m)
         if day is None or clock is None:
-            raise _unreadable(where, values[k], row(k))
+            raise _refuse(where, values[k], row(k))
         total[k] = day * _DAY + clock
-    leaps = [k for k, m in known.items() if m["s"] == "60"]
+    leaps = [k for k, m in readable.items() if m["s"] == "60"]
     if leaps:  # the seconds after it have the numbers that they would have had without it
         after = np.arange(len(total)) > leaps[-1]
         total[after & (total != _NONE)] += _SECOND
-    if known and all(m["h"] == _NO_HOUR for m in known.values()):
+    if readable and all(m["h"] == _NO_HOUR for m in readable.values()):
         return Stamps(_follow(total, _HOUR))
-    if not dated and any(m["days"] or int(m["h"]) > 23 for m in known.values()):
+    if not dated and any(m["days"] or int(m["h"]) > 23 for m in readable.values()):
         return Stamps(np.where(total == _NONE, np.nan, total / _SECOND), instants=False)
     return _count(total, dated, notes + ("a leap second (hh:mm:60) is counted",) * bool(leaps))
 
 
-def _date_in(m: re.Match[str]) -> str:
+def _join_date(m: re.Match[str]) -> str:
     """The date in a stamp, with a year that follows the time of the day; ``""``: there is none."""
     return (m["date"] or "") + (m["year"] or "")
 
@@ -255,15 +255,15 @@ def _read_clock(m: re.Match[str]) -> int | None:
 def find_order(values: Iterable[Any]) -> str | None:
     """``ymd``, ``dmy`` or ``mdy`` of stamps as text, by all their dates; ``None`` where two are possible."""
     matches = (_match(str(t).strip()) for t in dict.fromkeys(values))
-    dates = [*dict.fromkeys(d for m in matches if m and (d := _date_in(m)))]
+    dates = [*dict.fromkeys(d for m in matches if m and (d := _join_date(m)))]
     days = {o: [_read_date(d, o) for d in dates] for o in ("ymd", "dmy", "mdy")}
     numbers = filter(None, map(_NUMBERS.fullmatch, dates))
     if any(m[2] == "." for m in numbers) and None not in days["dmy"]:  # with dots the day is first
         del days["mdy"]
-    known = {o: [x for x in found if x is not None] for o, found in days.items() if None not in found}
-    if len({tuple(found) for found in known.values()}) < 2:
-        return next(iter(known), "dmy")
-    spans = {o: max(found) - min(found) for o, found in known.items()}
+    orders = {o: [x for x in v if x is not None] for o, v in days.items() if None not in v}
+    if len({tuple(v) for v in orders.values()}) < 2:
+        return next(iter(orders), "dmy")
+    spans = {o: max(v) - min(v) for o, v in orders.items()}
     if spans.pop("ymd", np.inf) < spans.get("dmy", np.inf):  # 26/03/01, 26/03/02
         return "ymd"
     return next(iter(spans)) if len(spans) == 1 else None
@@ -290,19 +290,19 @@ def _read_date(text: str, order: str) -> int | None:
 def _read_gps(week: NDArray[Any], second: NDArray[Any], where: str) -> Nanoseconds:
     """Nanoseconds since 1970, in GPS time."""
     if week.dtype.kind != "f" or second.dtype.kind != "f":
-        raise _unreadable(where, (second if week.dtype.kind == "f" else week)[0], "as week and seconds")
-    there = np.isfinite(week) & np.isfinite(second)
-    w, s = np.where(there, (week, second), 0.0)
+        raise _refuse(where, (second if week.dtype.kind == "f" else week)[0], "as week and seconds")
+    present = np.isfinite(week) & np.isfinite(second)
+    w, s = np.where(present, (week, second), 0.0)
     wrong = (w != np.rint(w)) | (w < 0) | (w > 9999) | (s < 0) | (s > 604800 + 1)
     if wrong.any():
-        found = f"week {w[wrong][0]:g}, {s[wrong][0]:g} s"
-        raise _unreadable(where, found, "as a whole week and seconds in it")
+        stamp = f"week {w[wrong][0]:g}, {s[wrong][0]:g} s"
+        raise _refuse(where, stamp, "as a whole week and seconds in it")
     weeks = int(GPS_EPOCH.timestamp()) * _SECOND + w.astype(np.int64) * 7 * _DAY
-    return np.where(there, weeks + np.rint(s * 1e9).astype(np.int64), _NONE)
+    return np.where(present, weeks + np.rint(s * 1e9).astype(np.int64), _NONE)
 
 
-def _unreadable(where: str, found: object, row: str) -> UserError:
-    shown = str(found)
+def _refuse(where: str, stamp: object, row: str) -> UserError:
+    shown = str(stamp)
     return UserError(
         "the instant cannot be read",
         where=where,

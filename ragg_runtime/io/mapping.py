@@ -148,8 +148,8 @@ def parse_mapping(text: str, path: Path) -> Mapped:
     )
 
 
-def _refuse(what: str, where: str, found: object, expected: str, remedy: str | None = None) -> UserError:
-    return UserError(what, where=where, found=repr(found)[:60], expected=expected, remedy=remedy)
+def _refuse(what: str, where: str, value: object, expected: str, remedy: str | None = None) -> UserError:
+    return UserError(what, where=where, found=repr(value)[:60], expected=expected, remedy=remedy)
 
 
 def _take(table: Mapping[str, Any], key: str, kind: type, where: str, default: Any) -> Any:
@@ -186,8 +186,8 @@ def _parse_entry(name: str, raw: Any, null: Null, where: str) -> Entry:
         example = f'{name} = {{ column = "its name in the file", unit = "..." }}'
         raise _refuse("the column of the file is not named", where, raw, example)
     check_keys(raw, _KEYS["columns"], where)
-    given = {"sign": 1.0, "scale": 1.0, "offset": 0.0}
-    sign, scale, offset = (_take(raw, n, float, where, usual) for n, usual in given.items())
+    defaults = {"sign": 1.0, "scale": 1.0, "offset": 0.0}
+    sign, scale, offset = (_take(raw, n, float, where, usual) for n, usual in defaults.items())
     if sign not in (1.0, -1.0):
         raise _refuse("sign is 1 or -1", where, raw["sign"], "scale for other factors")
     if scale == 0.0:
@@ -202,9 +202,9 @@ def _parse_time(raw: Mapping[str, Any], form: Any, null: Null, where: str) -> Ti
     written: str = _take({"format": form}, "format", str, where, "seconds")
     ordered = parse_order(written) is not None
     if written not in ("seconds", *WAYS) and not ordered:
-        known = "seconds, " + ", ".join(f"{n} ({example})" for n, (_, example) in WAYS.items())
+        formats = "seconds, " + ", ".join(f"{n} ({example})" for n, (_, example) in WAYS.items())
         near = did_you_mean(written, ("seconds", *WAYS))
-        raise _refuse("no such format of time", where, written, known, near)
+        raise _refuse("no such format of time", where, written, formats, near)
     needed = WAYS[written][0] if written in WAYS else 1
     fits = len(names) == needed or (ordered and len(names) == 2)
     if not fits or not all(isinstance(n, str) and n for n in names):
@@ -224,8 +224,8 @@ def _read_axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], .
     for axis, text in texts.items():
         if not re.fullmatch("-?[xyz]", text):
             raise _refuse("not an axis", at(where, axis), raw.get(axis), '"x", "-y" ...')
-    found = tuple(("xyz".index(t[-1]), -1.0 if t[0] == "-" else 1.0) for t in texts.values())
-    volume = round(np.linalg.det([np.eye(3)[k] * sign for k, sign in found]))
+    axes = tuple(("xyz".index(t[-1]), -1.0 if t[0] == "-" else 1.0) for t in texts.values())
+    volume = round(np.linalg.det([np.eye(3)[k] * sign for k, sign in axes]))
     if volume != 1:
         raise UserError(
             "the axes are a mirror image, not a rotation" if volume else "an axis appears twice",
@@ -234,7 +234,7 @@ def _read_axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], .
             expected="a right-handed frame, such as x = y, y = x, z = -z between NED and ENU",
             remedy="if a sensor is reversed, give its column sign = -1",
         )
-    return found
+    return axes
 
 
 # --- the flights in a file ------------------------------------------------------------------------------
@@ -291,11 +291,11 @@ def _require_names(table: DataTable, mapping: Mapped, place: Path | str) -> None
 
 
 def _pick_lines(lines: list[DataTable], names: Sequence[str] | None, place: Path | str) -> list[DataTable]:
-    wanted = {name_line(n) for n in names or ()}
-    if lost := sorted(wanted - {str(t.line) for t in lines}):
+    titles = {name_line(n) for n in names or ()}
+    if lost := sorted(titles - {str(t.line) for t in lines}):
         expected = ", ".join(str(t.line) for t in lines[:20])
         raise UserError("the file has no such line", where=place, found=", ".join(lost), expected=expected)
-    return lines if names is None else [t for t in lines if t.line in wanted]
+    return lines if names is None else [t for t in lines if t.line in titles]
 
 
 def _read_plain(table: DataTable) -> DataTable:
@@ -308,20 +308,20 @@ def _read_plain(table: DataTable) -> DataTable:
             time = index
         elif index.name == INDEX:
             notes.append("skipped, the index: numbers without a unit; if it is the time, name it time [s]")
-    found: dict[str, DataColumn] = {}
+    columns: dict[str, DataColumn] = {}
     for c in table.columns:
         if c is time or c is index:
             continue
-        if c.name in found or (c.name == "time" and time is not None):
+        if c.name in columns or (c.name == "time" and time is not None):
             if c.name in SI_UNITS:
                 what = f"the column {c.name!r} appears twice"
                 raise UserError(what, where=table.place, remedy="rename one")
             notes.append(f"{c.name}: a second column of this name is left out")
         elif c.is_number or c.name in SI_UNITS:
-            found[c.name] = c
+            columns[c.name] = c
         else:
             notes.append(f"{c.name} holds {'text' if c.is_text else 'dates'}; it is left out")
-    chosen = {n: (c, Entry(n, c.unit)) for n, c in found.items()}
+    chosen = {n: (c, Entry(n, c.unit)) for n, c in columns.items()}
     named = replace(table, notes=tuple(notes))
     return _read_columns(named, [] if time is None else [time], TimeEntry(()), chosen)
 
@@ -366,11 +366,11 @@ def _read_columns(
         if (e.factor, e.offset) != (1.0, 0.0):
             read = replace(read, values=read.values * e.factor + e.offset)
         columns.append(read)
-    there = np.isfinite(columns[0].values) if times else np.zeros(0, dtype=np.bool_)
-    lost = int(np.sum(~there))
-    if 0 < lost < len(there):
+    has_time = np.isfinite(columns[0].values) if times else np.zeros(0, dtype=np.bool_)
+    lost = int(np.sum(~has_time))
+    if 0 < lost < len(has_time):
         notes.append(f"{count(lost, 'row')} without a time left out")
-        columns = [replace(c, values=c.values[there]) for c in columns]
+        columns = [replace(c, values=c.values[has_time]) for c in columns]
     return replace(table, columns=tuple(columns), notes=(*table.notes, *notes))
 
 
@@ -401,12 +401,12 @@ def _read_time(columns: Sequence[DataColumn], table: DataTable, t: TimeEntry) ->
 
 
 def choose_tables(
-    tables: Sequence[DataTable], where: Path | str, wanted: frozenset[str], part: str | None = None
+    tables: Sequence[DataTable], where: Path | str, needed: frozenset[str], part: str | None = None
 ) -> list[DataTable]:
     """The tables that are meant: those of ``part``, with all columns that are wanted or with time; several alike are lines."""
     inside = f"{(part or '').strip('/')}/".lstrip("/")
-    found = [t for t in tables if t.columns and f"{t.part.strip('/')}/".startswith(inside)]
-    alike = next((c for n in (wanted, {"time"}) if (c := [t for t in found if n <= {*t.names}])), found)
+    branch = [t for t in tables if t.columns and f"{t.part.strip('/')}/".startswith(inside)]
+    alike = next((c for n in (needed, {"time"}) if (c := [t for t in branch if n <= {*t.names}])), branch)
     if len(alike) == 1:
         return [replace(alike[0], line=None)]
     if len({tuple(sorted(t.names)) for t in alike}) == 1:
@@ -463,14 +463,14 @@ def name_line(value: object) -> str:
 def read_quantities(table: DataTable) -> DataTable:
     """A table whose columns of texts that are all numbers, perhaps with units, are; names of lines (10 N) and instants stay texts."""
     decimal = table.decimal or find_decimal(c.values for c in table.columns if c.is_text)
-    found = []
+    columns = []
     for c in table.columns:
         first = next((t for t in c.values if t not in MISSING), "") if c.is_text else ""
         if split_quantity(first)[0] and "line" not in c.name.casefold() and not are_packed(c.values):
             numbers, unit, spoiled = parse_quantities(c.values, decimal)
             c = c if spoiled.any() else replace(c, unit=unit or c.unit, values=numbers)
-        found.append(c)
-    return replace(table, columns=tuple(found), decimal=decimal)
+        columns.append(c)
+    return replace(table, columns=tuple(columns), decimal=decimal)
 
 
 def _read_numbers(c: DataColumn, table: DataTable, null: Null, remedy: str | None = None) -> DataColumn:
@@ -514,18 +514,18 @@ def _leave_out_codes(c: DataColumn, null: Null, notes: list[str]) -> DataColumn:
 
 def _turn(table: DataTable, axes: Sequence[tuple[int, float]], path: Path) -> DataTable:
     """The table with its vectors and its tensor in the measurement frame."""
-    found = []
+    columns = []
     for c in table.columns:
-        own, sign = c.name, 1.0
+        name, sign = c.name, 1.0
         if _COMPONENT.fullmatch(c.name):
             stem, _, letters = c.name.rpartition("_")
             turned = [axes["xyz".index(k)] for k in letters]
-            own = f"{stem}_{''.join(sorted('xyz'[k] for k, _ in turned))}"
+            name = f"{stem}_{''.join(sorted('xyz'[k] for k, _ in turned))}"
             sign = float(np.prod([s for _, s in turned]))
-        if own not in table.names:
-            lacking = f"{c.name} comes from {own}, which [columns] does not have"
+        if name not in table.names:
+            lacking = f"{c.name} comes from {name}, which [columns] does not have"
             what = "a component that the axes need is missing"
             raise UserError(what, where=at(path, "[axes]"), found=lacking)
-        source = table.column(own)
-        found.append(replace(source, name=c.name, values=source.values if sign > 0 else -source.values))
-    return replace(table, columns=tuple(found))
+        source = table.column(name)
+        columns.append(replace(source, name=c.name, values=source.values if sign > 0 else -source.values))
+    return replace(table, columns=tuple(columns))

@@ -115,16 +115,16 @@ class Flight:
 
     def __post_init__(self) -> None:
         changes: dict[str, Any] = {
-            "time": _read_only(self.time),
-            "valid": _read_only(self.valid if self.valid.size else np.ones(len(self.time)), np.bool_),
+            "time": _freeze(self.time),
+            "valid": _freeze(self.valid if self.valid.size else np.ones(len(self.time)), np.bool_),
             "began": self.began if self.began is not None or not len(self.time) else float(self.time[0]),
         }
         for group in ("channels", "outputs"):
-            columns = {name: _read_only(v) for name, v in getattr(self, group).items()}
+            columns = {name: _freeze(v) for name, v in getattr(self, group).items()}
             changes[group] = MappingProxyType(columns)
-        own = {n: "rad" for n in self.channels if is_disc_angle(n)} | dict.fromkeys(self.outputs, "V")
+        default = {n: "rad" for n in self.channels if is_disc_angle(n)} | dict.fromkeys(self.outputs, "V")
         names = ("time", *self.channels, *self.outputs)
-        units = {n: self.units.get(n) or SI_UNITS.get(n, own.get(n, "1")) for n in names}
+        units = {n: self.units.get(n) or SI_UNITS.get(n, default.get(n, "1")) for n in names}
         for name, value in (changes | {"units": MappingProxyType(units)}).items():
             object.__setattr__(
                 self, name, value
@@ -179,13 +179,13 @@ class Flight:
         )
 
 
-def _read_only(values: ArrayLike, kind: type = np.float64) -> NDArray[Any]:
+def _freeze(values: ArrayLike, kind: type = np.float64) -> NDArray[Any]:
     view: NDArray[Any] = np.asarray(values, dtype=kind).view()
     view.flags.writeable = False
     return view
 
 
-def content(flight: Flight) -> str:
+def digest_content(flight: Flight) -> str:
     """Digest of motion and output in single precision: the same for any format that holds their digits."""
     columns = {**{n: flight.channels[n] for n in (*SPECIFIC_FORCE, *ANGULAR_RATE)}, **flight.outputs}
     digest = hashlib.sha256()
@@ -195,11 +195,11 @@ def content(flight: Flight) -> str:
     return digest.hexdigest()
 
 
-def distinct(flights: Sequence[Flight]) -> None:
+def require_distinct(flights: Sequence[Flight]) -> None:
     """UserError if two of the flights are the same record."""
-    known: dict[str, Flight] = {}
+    records: dict[str, Flight] = {}
     for x in flights if len(flights) > 1 else ():
-        first = known.setdefault(content(x), x)
+        first = records.setdefault(digest_content(x), x)
         if first is not x:
             what = SAME_RECORD.format(first.path or first.name)
             raise UserError(what, where=x.path or x.name, remedy="give each record once")

@@ -104,7 +104,7 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
     time, notes = _unroll(time)
     _require_increasing(time, path, where)
     steps = np.diff(time)
-    step, span = _typical_step(steps), float(time[-1] - time[0])
+    step, span = _find_typical_step(steps), float(time[-1] - time[0])
     # A gap of more samples than memory holds is refused below.
     jumps = np.rint(np.minimum(steps / step, 2.0**31)).astype(np.int64)
     off = np.abs(steps - jumps * step) / step
@@ -139,8 +139,8 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
     else:
         unit, first, step = rounded
         whole = np.asarray(first + step * np.arange(size), dtype=np.float64)
-        said = f"the time stamps are rounded to {unit:g} s; they are replaced by an even grid of {1 / step:.6g} Hz"
-        odd = [said] if unit > JITTER_NOTED * step else []
+        note = f"the time stamps are rounded to {unit:g} s; they are replaced by an even grid of {1 / step:.6g} Hz"
+        odd = [note] if unit > JITTER_NOTED * step else []
     return Grid(index, whole, step, (*notes, *_describe_gaps(time, jumps, step), *odd))
 
 
@@ -150,7 +150,7 @@ def _unroll(time: Array) -> tuple[Array, list[str]]:
     falls = steps[steps < 0]
     if not len(falls) or len(falls) == len(time) - 1:
         return time, []
-    step, fell = _typical_step(steps[steps > 0]), np.flatnonzero(steps < 0)
+    step, fell = _find_typical_step(steps[steps > 0]), np.flatnonzero(steps < 0)
     for period, name in COUNTERS.items():
         low = 0.0 if np.min(time) >= 0 else -period / 2
         beside = max(NEAR_END * period, 2 * step)
@@ -166,7 +166,7 @@ def _unroll(time: Array) -> tuple[Array, list[str]]:
     return time, []
 
 
-def _typical_step(steps: Array) -> float:
+def _find_typical_step(steps: Array) -> float:
     """The mean of those steps that are about the median: the rounding of printed times averages out."""
     middle = (len(steps) - 1) // 2
     median = float(np.partition(steps, middle)[middle])  # one of the steps, never between two of them
@@ -183,8 +183,8 @@ def _follow_clock(time: Array, step: float) -> tuple[NDArray[np.int64], Array] |
     return _track_clock(time, step, 0) if exact is None else exact
 
 
-def _track_clock(time: Array, step: float, known: int) -> tuple[NDArray[np.int64], Array] | None:
-    """The same from a first step, s, which is right for that many ``known`` samples: the clock is fitted to ever more of them."""
+def _track_clock(time: Array, step: float, exact: int) -> tuple[NDArray[np.int64], Array] | None:
+    """The same from a first step, s, which is right for that many samples (``exact``): the clock is fitted to ever more of them."""
     phase = np.mod((time[:128] - time[0]) / step, 1.0)
     lags = np.arange(64) / 64
     worst = np.max(np.abs((phase - lags[:, None] + 0.5) % 1.0 - 0.5), axis=1)
@@ -194,7 +194,7 @@ def _track_clock(time: Array, step: float, known: int) -> tuple[NDArray[np.int64
         k = np.rint((time[:size] - first) / step)
         if np.any(np.diff(k) < 1):
             return None
-        if size >= min(known, len(time)):
+        if size >= min(exact, len(time)):
             step, first = (float(c) for c in np.polyfit(k, time[:size], 1))
     k = np.rint((time - first) / step)
     off = np.abs(time - first - k * step) / step
@@ -279,7 +279,7 @@ def find_clock_steps(time: Array, present: NDArray[np.bool_]) -> list[ClockStep]
     off = np.where(np.abs(over) > 0.5, over - np.rint(over), over)  # whole steps are missing samples
     scatter = float(np.median(np.abs(off)))
     phase = np.r_[0.0, np.cumsum(off)]
-    found = []
+    places = []
     for k in np.flatnonzero((np.abs(off) > max(SET, 8 * scatter)) | (np.diff(rows) > 1)):
         before, after = phase[max(0, k + 1 - BESIDE) : k + 1], phase[k + 1 : k + 1 + BESIDE]
         moved = float(np.median(after) - np.median(before))
@@ -288,11 +288,11 @@ def find_clock_steps(time: Array, present: NDArray[np.bool_]) -> list[ClockStep]
         part = moved if abs(moved) > clear else 0.0
         if part or lacking:
             row = int(rows[k + 1])
-            found.append(ClockStep(row, float(time[row]), (part + lacking) * step, part * step))
-    if len(found) <= MOST_SET:
-        late = step * phase - np.sum([c.part * (rows >= c.row) for c in found], axis=0)
-        found += _find_slews(time, rows, late, step)
-    return found if len(found) <= MOST_SET else []
+            places.append(ClockStep(row, float(time[row]), (part + lacking) * step, part * step))
+    if len(places) <= MOST_SET:
+        late = step * phase - np.sum([c.part * (rows >= c.row) for c in places], axis=0)
+        places += _find_slews(time, rows, late, step)
+    return places if len(places) <= MOST_SET else []
 
 
 def _find_slews(time: Array, rows: NDArray[np.int64], late: Array, step: float) -> list[ClockStep]:
@@ -304,12 +304,12 @@ def _find_slews(time: Array, rows: NDArray[np.int64], late: Array, step: float) 
     apart = np.diff(at)
     off = np.diff(mean) / apart
     off -= np.median(off)
-    found = []
+    slews = []
     for r in runs(np.abs(off) > SLEWED * np.median(np.abs(off))):
         a, b, size = int(at[r.start]), int(at[r.stop]), float(np.sum((off * apart)[r]))
         if abs(size) > SET * step:
-            found.append(ClockStep(a, float(time[a]), size, size, b, float(time[b])))
-    return found
+            slews.append(ClockStep(a, float(time[a]), size, size, b, float(time[b])))
+    return slews
 
 
 def fit_even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, float, Array]:
@@ -317,17 +317,17 @@ def fit_even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, floa
 
     First instant and interval, s; by how much, s, the clock of each stamp, (N,), had been set, by other than whole intervals.
     """
-    every, steps = np.arange(len(time)), [c for c in find_clock_steps(time, present) if c.part]
-    slewed = np.any([(every >= c.row) & (every < c.until) for c in steps], axis=0)
+    rows, steps = np.arange(len(time)), [c for c in find_clock_steps(time, present) if c.part]
+    slewed = np.any([(rows >= c.row) & (rows < c.until) for c in steps], axis=0)
     k = np.flatnonzero(present & ~slewed)
-    places = [np.ones(len(time)), *((every >= c.row).astype(np.float64) for c in steps)]
-    whole = np.stack([every, *places], axis=1)
+    places = [np.ones(len(time)), *((rows >= c.row).astype(np.float64) for c in steps)]
+    whole = np.stack([rows, *places], axis=1)
     X, t = whole[k], time[k] - time[0]
     fitted = np.linalg.lstsq(X, t, rcond=None)[0]
     set_by, scatter = whole[:, 2:] @ fitted[2:], float(np.std(t - X @ fitted))
     # A clock is set to a round rate: take it where the instants do not separate it from the fitted one.
-    known = 4 * scatter * np.sqrt(np.linalg.pinv(X.T @ X, hermitian=True)[0, 0])
-    step = _round_rate(float(fitted[0]), known)
+    error = 4 * scatter * np.sqrt(np.linalg.pinv(X.T @ X, hermitian=True)[0, 0])
+    step = _round_rate(float(fitted[0]), error)
     return float(time[0] + np.mean(t - set_by[k] - step * k)), step, set_by
 
 
@@ -415,7 +415,7 @@ def _require_increasing(time: Array, path: Path | str | None, where: str) -> Non
     elif steps[row] == 0:
         what = "an instant appears twice"
     elif len(wrong) <= MOST_SET and -steps[row] < 0.5 * float(np.ptp(time)) and not swapped:
-        step = _typical_step(steps[steps > 0])
+        step = _find_typical_step(steps[steps > 0])
         what = f"the time stamps jump back by {step - steps[row]:.4g} s at t = {time[row]:.10g} s: was the clock adjusted?"
         remedy = _BY_COUNT.format(rate=1 / step)
     raise UserError(what, where=where, found=found, expected="increasing time", remedy=remedy)
@@ -426,16 +426,16 @@ def _describe_coarse(time: Array, steps: Array) -> tuple[str, str]:
     edges, single = np.flatnonzero(steps != 0) + 1, time.astype(np.float32)
     spacing = float(np.spacing(np.abs(single).max())) if np.array_equal(single, time) else 0.0
     rows = len(time) / (len(edges) + 1)
-    found = f"{count(len(edges) + 1, 'different stamp')} in {len(time)} rows, each in about {rows:.4g} rows"
+    stamps = f"{count(len(edges) + 1, 'different stamp')} in {len(time)} rows, each in about {rows:.4g} rows"
     rate = "rate"
     if spacing >= 1e-3:
-        found += f"; single precision has steps of {spacing:.3g} s there"
+        stamps += f"; single precision has steps of {spacing:.3g} s there"
     elif len(edges):
-        found += "; they are whole seconds" * np.array_equal(np.rint(time), time)
+        stamps += "; they are whole seconds" * np.array_equal(np.rint(time), time)
         rate = f"{rows / float(np.median(steps[edges - 1])):.6g} Hz"
     else:
-        found += ": the clock stands still"
+        stamps += ": the clock stands still"
     remedy = (
         f"give the times by the rate and the number of the row: time = row / {rate}; no row is duplicated"
     )
-    return found, remedy
+    return stamps, remedy

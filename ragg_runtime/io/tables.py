@@ -152,11 +152,11 @@ def read_heading(text: str) -> tuple[str, str]:
 
 def read_headings(texts: Sequence[str]) -> list[tuple[str, str]]:
     """Names and units of a header; of ``gyro[0]``, ``gyro[1]``, ``gyro[2]`` the numbers belong to the names."""
-    found = [read_heading(t) for t in texts]
-    numbered = Counter(name for name, unit in found if unit.isdigit())
+    headings = [read_heading(t) for t in texts]
+    numbered = Counter(name for name, unit in headings if unit.isdigit())
     return [
         (one_line(text.strip()), "") if unit.isdigit() and numbered[name] > 1 else (name, unit)
-        for text, (name, unit) in zip(texts, found, strict=True)
+        for text, (name, unit) in zip(texts, headings, strict=True)
     ]
 
 
@@ -214,13 +214,13 @@ def find_decimal(columns: Iterable[Any]) -> str:
 
     def is_told(cells: Any, mark: str) -> bool:
         number, thousands = (rf"^\s*{x[mark]}{_UNIT}\s*$" for x in (_DECIMALS, _THOUSANDS))
-        found = pc.and_not(
+        numbers = pc.and_not(
             pc.match_substring_regex(cells, number), pc.match_substring_regex(cells, thousands)
         )
-        return bool(pc.any(found).as_py())
+        return bool(pc.any(numbers).as_py())
 
-    told = [m for m in ",." if any(is_told(t, m) for t in marked[m])]
-    return told[0] if len(told) == 1 else ""
+    marks = [m for m in ",." if any(is_told(t, m) for t in marked[m])]
+    return marks[0] if len(marks) == 1 else ""
 
 
 def parse_quantities(texts: Iterable[str], decimal: str = "") -> tuple[Array, str, Mask]:
@@ -230,15 +230,15 @@ def parse_quantities(texts: Iterable[str], decimal: str = "") -> tuple[Array, st
     texts = [*texts]
     decimal = decimal or find_decimal([texts])
     cells = [split_quantity(t) for t in texts]
-    given, known = [*dict.fromkeys(u for _, u in cells if u)], units(9.8)
-    given = given if all(is_unit(u) and known.fits(u, given[0]) for u in given) else []
-    fits = [u in given if given else not u for _, u in cells]
+    symbols, registry = [*dict.fromkeys(u for _, u in cells if u)], units(9.8)
+    symbols = symbols if all(is_unit(u) and registry.fits(u, symbols[0]) for u in symbols) else []
+    fits = [u in symbols if symbols else not u for _, u in cells]
     numbers = np.array([_parse(n, decimal) if ok else np.nan for (n, _), ok in zip(cells, fits, strict=True)])
-    for unit in given[1:]:
-        here, si = np.array([u == unit for _, u in cells]), known.base_unit(given[0])
-        numbers[here] = known.from_si(known.to_si(numbers[here], unit, si), si, given[0])
+    for unit in symbols[1:]:
+        here, si = np.array([u == unit for _, u in cells]), registry.base_unit(symbols[0])
+        numbers[here] = registry.from_si(registry.to_si(numbers[here], unit, si), si, symbols[0])
     spoiled = np.isnan(numbers) & np.array([t not in MISSING for t in texts], dtype=np.bool_)
-    return numbers, given[0] if given else "", spoiled
+    return numbers, symbols[0] if symbols else "", spoiled
 
 
 def _parse(number: str, decimal: str) -> float:
@@ -261,20 +261,20 @@ def find_codes(values: Array, *, known_only: bool = False) -> list[float]:
     rest = x[~np.isin(x, usual)]
     if not len(rest):  # a sensor that was not there
         return [c for c in usual if c < 0 or c >= 1e20]
-    found = [c for c in usual if _is_isolated(x[(x == c) | ~np.isin(x, usual)], c, rest, QUIET)]
-    return found + ([] if known_only else _find_extremes(x[~np.isin(x, found)], _is_unusual_code))
+    codes = [c for c in usual if _is_isolated(x[(x == c) | ~np.isin(x, usual)], c, rest, QUIET)]
+    return codes + ([] if known_only else _find_extremes(x[~np.isin(x, codes)], _is_unusual_code))
 
 
 def _find_extremes(x: Array, is_code: Callable[[Array, float], bool]) -> list[float]:
     """Extremes that are codes, one after the other."""
-    found: list[float] = []
+    extremes: list[float] = []
     while len(x):
         code = next((v for v in (float(x.min()), float(x.max())) if is_code(x, v)), None)
         if code is None:
             break
-        found.append(code)
+        extremes.append(code)
         x = x[x != code]
-    return found
+    return extremes
 
 
 def _is_unusual_code(x: Array, code: float) -> bool:
@@ -291,9 +291,9 @@ def _is_isolated(x: Array, code: float, rest: Array, share: float) -> bool:
     if len(rest) < 2 or rest.min() <= code <= rest.max():
         return False
     hit = x == code
-    steps, own = np.abs(np.diff(x)), np.abs(np.diff(rest))
+    steps, others = np.abs(np.diff(x)), np.abs(np.diff(rest))
     into = np.min(steps[hit[1:] != hit[:-1]], initial=np.inf)
-    return bool(into > ISOLATED * np.quantile(own, share, method="lower"))
+    return bool(into > ISOLATED * np.quantile(others, share, method="lower"))
 
 
 def _is_usual(value: float) -> bool:

@@ -100,7 +100,7 @@ def find_header(rows: Sequence[Sequence[str]]) -> Header | None:
     headings = [h if h[0] else (n.strip(), "") for n, h in zip(names, read_headings(names), strict=True)]
     return Header(
         names=tuple(n for n, _ in headings),
-        units=tuple(own or u for (_, own), u in zip(headings, units, strict=True)),
+        units=tuple(inner or u for (_, inner), u in zip(headings, units, strict=True)),
         begins=begins,
         share=sum(data[first:]) / max(1, len(data) - first),
         notes=notes,
@@ -112,8 +112,8 @@ def _read_header(rows: list[list[str]]) -> tuple[list[str], list[str], tuple[str
     units = [""] * len(rows[0])
     if not any(all(read_heading(c)) for r in rows for c in r):
         for k in range(len(rows) - 1, 0, -1):  # below the units there may be a row of remarks
-            if (found := _read_units(rows[k])) is not None:
-                units, rows = found, rows[:k]
+            if (row_units := _read_units(rows[k])) is not None:
+                units, rows = row_units, rows[:k]
                 break
     if len(rows) > 1 and sum(map(bool, rows[-2])) > 1 and _needs_a_row_above(rows[-1]):
         return _join_rows(rows[-2], rows[-1]), units, (TWO_ROWS,)
@@ -125,10 +125,10 @@ def _read_units(cells: Sequence[str]) -> list[str] | None:
 
     The first cell may name the row: ``Units``.
     """
-    found = [re.sub(r"\s*(?:\[(.*)\]|\((.*)\)|'(.*)')\s*", r"\1\2\3", c).strip() for c in cells]
-    found[:1] = ["" if re.fullmatch(r"units?:?", c, re.IGNORECASE) else c for c in found[:1]]
-    units = all(not c or is_unit(c) for c in found) and any(c not in ("", "1") for c in found)
-    return found if units else None
+    texts = [re.sub(r"\s*(?:\[(.*)\]|\((.*)\)|'(.*)')\s*", r"\1\2\3", c).strip() for c in cells]
+    texts[:1] = ["" if re.fullmatch(r"units?:?", c, re.IGNORECASE) else c for c in texts[:1]]
+    units = all(not c or is_unit(c) for c in texts) and any(c not in ("", "1") for c in texts)
+    return texts if units else None
 
 
 def _is_filled(cell: str) -> bool:
@@ -152,37 +152,37 @@ def _are_numbered(rows: Sequence[Sequence[str]], width: int) -> bool:
 def _needs_a_row_above(names: Sequence[str]) -> bool:
     """Whether names are parts of names: some are missing before the last one, or occur twice."""
     bare = [read_heading(n)[0] for n in names]
-    there = [n for n in bare if n]
+    filled = [n for n in bare if n]
     last = max((k for k, n in enumerate(names) if n), default=-1)
-    return "" in bare[: last + 1] or len({*there}) < len(there)
+    return "" in bare[: last + 1] or len({*filled}) < len(filled)
 
 
 def _join_rows(above: Sequence[str], below: Sequence[str]) -> list[str]:
     """A header over two rows: ``acceleration [g]`` over x, y, z (of merged cells the first holds the text), ``time`` over ``s``."""
-    found, title = [], ""
+    headings, title = [], ""
     for k, (upper, lower) in enumerate(zip(above, below, strict=True)):
         title = upper or (title if lower else "")
-        (name, unit), (own, its) = read_heading(title), read_heading(lower)
+        (name, unit), (part, part_unit) = read_heading(title), read_heading(lower)
         alone = bool(upper) and (k + 1 == len(above) or bool(above[k + 1]))
-        if alone and not (unit or its) and is_unit(own):
-            own, its = "", own
-        whole = own if own in SI_UNITS else "_".join(filter(None, (name, own)))
-        found.append(f"{whole} [{its or unit}]" if its or unit else whole)
-    return found
+        if alone and not (unit or part_unit) and is_unit(part):
+            part, part_unit = "", part
+        whole = part if part in SI_UNITS else "_".join(filter(None, (name, part)))
+        headings.append(f"{whole} [{part_unit or unit}]" if part_unit or unit else whole)
+    return headings
 
 
 def _make_table(
     header: Header, columns: Iterable[NDArray[Any]], notes: Iterable[str], **about: Any
 ) -> DataTable:
     """The columns (n,) below a header; the first may be an index, which pandas writes without a name."""
-    found, odd = [], []
+    data_columns, odd = [], []
     for k, (name, unit, x) in enumerate(zip(header.names, header.units, columns, strict=True)):
         if name:
-            found.append(DataColumn(name, unit, x))
+            data_columns.append(DataColumn(name, unit, x))
         elif np.any(x != "" if x.dtype == object else np.isfinite(x)):
-            found += [DataColumn(INDEX, "", x)] if k == 0 else []
+            data_columns += [DataColumn(INDEX, "", x)] if k == 0 else []
             odd += [f"column {k + 1} has no name; it is skipped"] if k > 0 else []
-    return DataTable(tuple(found), notes=(*notes, *odd, *header.notes), index=INDEX, **about)
+    return DataTable(tuple(data_columns), notes=(*notes, *odd, *header.notes), index=INDEX, **about)
 
 
 # --- CSV -----------------------------------------------------------------------------------------------
@@ -191,10 +191,10 @@ def _make_table(
 def read_csv(path: Path) -> list[DataTable]:
     """The text as one table; UserError if it has no header or lines of different widths."""
     data, notes = _read_text(path)
-    delimiter, headings, header = _look(data, path)
+    delimiter, headings, header = _find_layout(data, path)
     if delimiter == _BLANKS and "" in header.names:  # a date and a time below one name
         data = _DATE_CLOCK.sub(rb"\1T\2", data)
-        delimiter, headings, header = _look(data, path)
+        delimiter, headings, header = _find_layout(data, path)
     if delimiter == _BLANKS:
         data = re.sub(rb"(?m)^[ \t]+|[ \t]+(?=\r?$)", b"", data)
         data, delimiter = re.sub(rb"[ \t]+", b" ", data), " "
@@ -208,8 +208,8 @@ def read_csv(path: Path) -> list[DataTable]:
 def _read_cells(texts: pa.ChunkedArray, decimal: str) -> NDArray[Any]:
     """A column as numbers where Arrow reads them, or as its texts."""
     cells = pc.utf8_trim_whitespace(texts)
-    there = pc.is_in(cells, pa.array(sorted(MISSING)), skip_nulls=True)
-    numbers, other = pc.if_else(there, None, cells), "." if decimal == "," else ","
+    missing = pc.is_in(cells, pa.array(sorted(MISSING)), skip_nulls=True)
+    numbers, other = pc.if_else(missing, None, cells), "." if decimal == "," else ","
     packed = are_packed(numbers.slice(0, _LOOKED_AT).drop_null().to_pylist())
     if not packed and not pc.any(pc.match_substring(numbers, other)).as_py():
         with contextlib.suppress(pa.ArrowInvalid):
@@ -247,7 +247,7 @@ def _read_text(path: Path) -> tuple[bytes, list[str]]:
     return data, []
 
 
-def _look(data: bytes, path: Path) -> tuple[str, list[bytes], Header]:
+def _find_layout(data: bytes, path: Path) -> tuple[str, list[bytes], Header]:
     """Delimiter, lines before the first row, and header, from the first lines."""
     stream = io.TextIOWrapper(io.BytesIO(data), "utf-8", newline="")
     lines = list(itertools.islice(stream, _LOOKED_AT))
@@ -273,12 +273,12 @@ def _read_rows(lines: Sequence[str], delimiter: str) -> tuple[list[list[str]], l
     """Rows of cells that are not empty, and the number of each one's last line; the header may be a remark (NumPy's is)."""
     bare = [_REMARK.sub("", x) for x in lines]
     if delimiter == _BLANKS:
-        found = [(r, n) for n, r in enumerate(_split_at_blanks(bare), 1)]
+        pairs = [(r, n) for n, r in enumerate(_split_at_blanks(bare), 1)]
     else:
         reader = csv.reader(bare, delimiter=delimiter)
-        found = [(r, reader.line_num) for r in reader]
-    found = [(r, n) for r, n in found if any(c.strip() for c in r)]
-    return [r for r, _ in found], [n for _, n in found]
+        pairs = [(r, reader.line_num) for r in reader]
+    pairs = [(r, n) for r, n in pairs if any(c.strip() for c in r)]
+    return [r for r, _ in pairs], [n for _, n in pairs]
 
 
 def _split_at_blanks(lines: Sequence[str]) -> list[list[str]]:
@@ -286,8 +286,8 @@ def _split_at_blanks(lines: Sequence[str]) -> list[list[str]]:
     rows = [re.split(r"[ \t]+(?![\[({<])", x.strip()) for x in lines]
     width = Counter(map(len, rows)).most_common(1)[0][0] if rows else 0
     wide = (re.split(r" {2,}|\t+", x.strip()) for x in lines)
-    found = (w if len(w) == width else r for r, w in zip(rows, wide, strict=True))
-    return [[c.strip('"') for c in r] for r in found]
+    cells = (w if len(w) == width else r for r, w in zip(rows, wide, strict=True))
+    return [[c.strip('"') for c in r] for r in cells]
 
 
 def _drop_headers(data: bytes, delimiter: str, headings: Sequence[bytes], notes: list[str]) -> bytes:
@@ -354,11 +354,11 @@ def read_excel(path: Path) -> list[DataTable]:
             size = sum(p.file_size for p in parts if p.filename.startswith("xl/worksheets/"))
             require_memory(path, _CELL_OF_XML * size)
             book = openpyxl.load_workbook(stream, read_only=True, data_only=True)
-            found = []
+            tables = []
             for sheet in book.worksheets:
                 sheet.reset_dimensions()  # what a file says of them may be wrong
-                found.append(_read_sheet(sheet.title, sheet.values))
-        return [t for t in found if t is not None]
+                tables.append(_read_sheet(sheet.title, sheet.values))
+        return [t for t in tables if t is not None]
 
 
 def _read_sheet(name: str, cells: Iterable[Sequence[Any]]) -> DataTable | None:

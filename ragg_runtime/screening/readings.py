@@ -349,8 +349,8 @@ def _find_repeated(x: Array, present: Mask, turning: bool) -> _Repeated | None:
         return joined
     stuck = _find_stuck(x, present, equal, step or 0.0, turning)
     lines = _find_lines(x, present, step or 0.0) & ~(stuck | turning | coarse)
-    found = _Repeated("interpolated" if lines.any() else "stuck", stuck | lines)
-    return found if found.left_out.any() else None
+    repeated = _Repeated("interpolated" if lines.any() else "stuck", stuck | lines)
+    return repeated if repeated.left_out.any() else None
 
 
 def _find_lost_packets(axes: Sequence[Array], present: Mask) -> Mask:
@@ -424,10 +424,10 @@ def _find_stuck(x: Array, present: Mask, equal: Mask, step: float, turning: bool
     return stuck
 
 
-def _find_lines(x: Array, there: Mask, step: float) -> Mask:
+def _find_lines(x: Array, present: Mask, step: float) -> Mask:
     """(N,): samples on a line between others, which a column that bends far more reaches and leaves by a kink: gaps that were filled."""
-    found = np.zeros(len(x), dtype=np.bool_)
-    bend = np.where(there[2:] & there[1:-1] & there[:-2], np.abs(np.diff(x, 2)), np.nan)
+    filled = np.zeros(len(x), dtype=np.bool_)
+    bend = np.where(present[2:] & present[1:-1] & present[:-2], np.abs(np.diff(x, 2)), np.nan)
     rough = bend[bend > 2 * step]
     finest = max(STRAIGHT * float(np.median(rough)) if len(rough) else 0.0, 2 * step)
     for run in runs(bend <= finest):
@@ -437,8 +437,8 @@ def _find_lines(x: Array, there: Mask, step: float) -> Mask:
         usual = float(np.median(near[near > finest])) if np.any(near > finest) else 0.0
         off = np.abs(x[first : last + 1] - np.linspace(x[first], x[last], last - first + 1))
         if np.any(kinks > KINK * usual) and np.max(off) <= finest < abs(x[last] - x[first]) / COARSE:
-            found[first + 1 : last] |= len(x) * (finest / usual) ** (last - first - 1) < RARE
-    return found
+            filled[first + 1 : last] |= len(x) * (finest / usual) ** (last - first - 1) < RARE
+    return filled
 
 
 def _find_lost(x: Array, present: Mask, stuck: Mask) -> Mask:

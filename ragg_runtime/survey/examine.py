@@ -29,7 +29,7 @@ from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.files import read_recordings
 from ragg_runtime.io.mapping import Mapped, parse_mapping
-from ragg_runtime.io.record import content
+from ragg_runtime.io.record import digest_content
 from ragg_runtime.model import derive
 from ragg_runtime.screening import screen
 
@@ -139,7 +139,7 @@ def _make_record(f: Fitted, flight: Flight) -> Record:
     holdout = held_out.held_out.as_json()
     record: Record = {
         "sha256": flight.digest,
-        CONTENT: content(flight),
+        CONTENT: digest_content(flight),
         "samples": len(flight),
         "duration_s": flight.duration,
         "rate_Hz": flight.rate,

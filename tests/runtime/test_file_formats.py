@@ -27,7 +27,7 @@ from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, files, read_flight, write_flight
 from ragg_runtime.io.files import convert, read_recordings, write_tables
 from ragg_runtime.io.mapping import parse_mapping
-from ragg_runtime.io.record import distinct
+from ragg_runtime.io.record import require_distinct
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.simulate import simulate_flight
 from ragg_runtime.survey import run
@@ -476,7 +476,7 @@ def test_other_records_are_others(short_flight: Flight) -> None:
     for seed in (1, 2):
         noise = np.random.default_rng(seed).normal(size=len(short_flight))
         flights.append(replace(short_flight, channels=rest, outputs={"G_out": noise}))
-    distinct(flights)
+    require_distinct(flights)
 
 
 def test_a_survey_counts_one_record_once(loaded, short_flight, tmp_path, monkeypatch) -> None:
