@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-RATIO = "x"
-"""The unit of a ratio."""
+RATIO = "x"  # the unit of a ratio
 
 
 @dataclass(frozen=True)

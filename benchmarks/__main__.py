@@ -17,14 +17,10 @@ from benchmarks import commands, evaluation
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "contributors" / "benchmarks.md"
-TABLES = "Measured on: "
-"""Where the tables begin on the page; what is above is written by hand."""
-
+TABLES = "Measured on: "  # where the tables begin on the page; what is above is written by hand
+# Functions that return the rows of a table; their first line is what is said above it
 BENCHMARKS = {"commands": commands.run, "day": commands.run_day, "evaluation": evaluation.run}
-"""Functions that return the rows of a table; their first line is what is said above it."""
-
-USUAL = ("commands", "evaluation")
-"""What runs if none is named: a day takes much longer."""
+USUAL = ("commands", "evaluation")  # what runs if none is named: a day takes much longer
 
 
 def describe_machine() -> str:

@@ -16,11 +16,9 @@ from ragg_runtime.signals.demodulators import DEMODULATORS, find_demodulator
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
+# Of the waves that are laid over a flight together, s
 PERIODS = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 12.0, 20.0, 40.0, 90.0, 240.0, 600.0, 1200.0, 3600.0])
-"""Of the waves that are laid over a flight together, s."""
-
-SIZE = 20.0
-"""Of each wave, Eo."""
+SIZE = 20.0  # of each wave, Eo
 
 
 def transfer(duration: float = 7200.0) -> dict[str, tuple[Complex, Complex]]:

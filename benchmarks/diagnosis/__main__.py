@@ -34,9 +34,8 @@ from examples.mimu import elsewhere
 ROOT = Path(__file__).resolve().parents[2]
 CACHE = ROOT / "build" / "bench-diagnosis.jsonl"
 
+# What the result of a flight depends on
 SOURCES = ("generated", "derive", "ragg_runtime", "benchmarks/diagnosis")
-"""What the result of a flight depends on."""
-
 Task = Callable[[], dict[str, Any]]
 
 

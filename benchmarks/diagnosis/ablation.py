@@ -24,11 +24,11 @@ from ragg_runtime.identification.likelihood_ratio import Scatter
 
 HALF = 20
 
+# Kinds of the flights that every rule is tried on, and of their records
 ALL = (
     "quiet white, outside white, five white, ten red, pair white, strong red, off-sheet white, "
     "quiet elsewhere, outside red, ten elsewhere"
 )
-"""Kinds of the flights that every rule is tried on, and of their records."""
 
 STRONG = "strong white, strong red, pair white, pair red"
 WEAK = "ten white, pair white, five red, outside white"
@@ -167,8 +167,8 @@ def without(rule: str, spec: Spec) -> dict[str, Any]:
         return fly(spec)
 
 
+# Where a flight on which a rule acts differs without it
 SAID = ("verdict", "found", "ranking", "terms", "after")
-"""Where a flight on which a rule acts differs without it."""
 
 
 def row(rule: Rule, on: Sequence[Line], off: Sequence[Line]) -> dict[str, Any]:

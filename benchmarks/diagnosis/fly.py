@@ -39,9 +39,7 @@ from ragg_runtime.signals.fir import convolve
 
 Array = NDArray[np.float64]
 
-LONGEST = 90.0
-"""s of processor time for one flight; usual are three."""
-
+LONGEST = 90.0  # s of processor time for one flight; usual are three
 TRIES = 60
 
 STRONG = (300.0, 3000.0)
@@ -146,6 +144,7 @@ TERMS: Mapping[str, Callable[[Surroundings], Array]] = {
 }
 """Terms by name, (N,) m/s^2 in the first accelerometer; of the first ones the dictionary of the diagnosis holds many."""
 
+# Those that have become effects of the catalogue since the terms were chosen: naming these is right
 SINCE: Mapping[str, str] = {
     "play in f_i (hysteresis)": "bias-hysteresis",
     "heating by f_i^2, 30 s": "inner-temperature",
@@ -155,7 +154,6 @@ SINCE: Mapping[str, str] = {
     "cube of G_out (converter)": "output-curve",
     "square of G_out (converter)": "output-curve",
 }
-"""Those that have become effects of the catalogue since the terms were chosen: naming these is right."""
 
 
 def name_of(s: Spec) -> str:

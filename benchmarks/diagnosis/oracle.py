@@ -39,29 +39,19 @@ from ragg_runtime.reference.effects import CATALOGUE
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+# Plausible sizes beyond which an effect is not hidden: up to 10 sigma, and above
 LARGEST, LARGEST_STRONG = 30.0, 1000.0
-"""Plausible sizes beyond which an effect is not hidden: up to 10 sigma, and above."""
-
+# s: what the simulator can do, and a Taylor series describes
 LONGEST: Mapping[str, float] = {"lag": 0.03, "gyro-delay": 0.1, "imu-skew": 0.1, "time-offset": 0.1}
-"""s: what the simulator can do, and a Taylor series describes."""
-
 NEVER = ("arm-length", "disc-spin", "imu-saturation", "second-order-misalignment")
 """Effects that are not hidden: nature knows them at one size alone, or a sheet as sure as these does not offer them."""
 
-FILTERS = ("imu-filter", "lag", "output-filter", "second-order-loop")
-"""No filter at all with the other sign."""
-
+FILTERS = ("imu-filter", "lag", "output-filter", "second-order-loop")  # no filter at all with the other sign
+# Of a vibration along one line
 COVARIANCES = ("angular-jitter", "vibration-level", "vibration-rectification")
-"""Of a vibration along one line."""
-
-DIRECTIONS = 6
-"""Directions of an effect's parameters that are tried before another effect takes its place."""
-
-CLIPPED = 10
-"""Least number of samples that a hidden saturation clips."""
-
-KNOT = 10.0
-"""s: between the knots of an unknown gradient."""
+DIRECTIONS = 6  # directions of an effect's parameters that are tried before another effect takes its place
+CLIPPED = 10  # least number of samples that a hidden saturation clips
+KNOT = 10.0  # s: between the knots of an unknown gradient
 
 
 @dataclass(frozen=True)

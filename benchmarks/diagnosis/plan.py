@@ -31,18 +31,11 @@ from ragg_runtime.reference.simulate import draw_rare, draw_usual, eotvos_noise
 
 Array = NDArray[np.float64]
 
+# Seeds of the reference: flown once on commit 0e1d107, and on whatever is compared with it
 REFERENCE = (4401, 4402, 4403)
-"""Seeds of the reference: flown once on commit 0e1d107, and on whatever is compared with it."""
-
-HELD = (4411, 4412, 4413)
-"""Seeds that nobody has looked at: for the code that is written next."""
-
-ABLATION = 4420
-"""Seed of the flights of the ablation."""
-
-RECORDS = 5501
-"""Seed of the flights of one kind of record."""
-
+HELD = (4411, 4412, 4413)  # seeds that nobody has looked at: for the code that is written next
+ABLATION = 4420  # seed of the flights of the ablation
+RECORDS = 5501  # seed of the flights of one kind of record
 FIRST_CATALOGUE = (
     "adc-nonlinearity", "angular-jitter", "anisoinertia", "arm-length", "arm-sag", "arm-stretch", "bearing-run-out",
     "bias-drift", "bias-step", "clock-drift", "cubic-cross", "cubic-input", "disc-spin", "encoder-harmonic",
@@ -56,9 +49,8 @@ FIRST_CATALOGUE = (
 )  # fmt: skip
 """Effects that there were when the seeds above were chosen: their flights are made of these, whatever has been added."""
 
+# Flights of every kind in a seed
 COUNTS = {"quiet": 100, "outside": 40, "five": 20, "ten": 20, "strong": 20, "pair": 20, "off-sheet": 20}
-"""Flights of every kind in a seed."""
-
 WHAT = {
     "quiet": "nothing is hidden",
     "outside": "physics that no effect makes, 10 sigma beyond all effects together",
@@ -72,15 +64,13 @@ WHAT = {
 DURATION, QUIET_DURATION = 400.0, 300.0
 RATE = 16.0
 
-RECORD = Path(__file__).parent / "motion.parquet"
-"""A flight whose motion channels are flown again."""
-
+RECORD = Path(__file__).parent / "motion.parquet"  # a flight whose motion channels are flown again
+# How far an instrument is off its sheet, SI (K1: of its value): 1 mm, 5 mrad, 5 mg, 2 %, 100 ug/g^2
 OFF_SHEET = {"dR": 1e-3, "beta_x": 5e-3, "beta_z": 5e-3, "vartheta_y": 5e-3, "vartheta_z": 5e-3} | {
     "K0": 0.05,
     "K1": 0.02,
     **{f"K{k}": 1e-5 for k in (2, 4, 5, 6, 7, 8)},
 }
-"""How far an instrument is off its sheet, SI (K1: of its value): 1 mm, 5 mrad, 5 mg, 2 %, 100 ug/g^2."""
 
 
 @dataclass(frozen=True)

@@ -13,12 +13,8 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-Table = dict[str, Array]
-"""The columns of a file, ``time`` first, SI."""
-
-SPIN = 0.25
-"""Hz: of the paper's instrument, on which every kind of record but ``elsewhere`` is flown."""
-
+Table = dict[str, Array]  # the columns of a file, ``time`` first, SI
+SPIN = 0.25  # Hz: of the paper's instrument, on which every kind of record but ``elsewhere`` is flown
 MILLI_G = 9.8e-3
 
 QUARTERS = np.array([0.0, np.pi, np.pi / 2, 3 * np.pi / 2])
@@ -301,6 +297,7 @@ def _asked(noise: NoiseKind, change: Change = RecordKind.change) -> RecordKind:
 
 _STEPS, _SPIN = frozenset({"quantisation"}), frozenset({"spin-rate-offset"})
 
+# Every kind of record, by name
 KINDS: Mapping[str, RecordKind] = {
     "white": _tame(),
     "red": _tame(red),
@@ -377,7 +374,6 @@ KINDS: Mapping[str, RecordKind] = {
         output(lambda G, r, rng: r.clean + (G - r.clean) * np.sqrt(1.0 / rng.chisquare(3, len(G)))),
     ),
 }
-"""Every kind of record, by name."""
 
 KNOWN = tuple(n for n, k in KINDS.items() if k.known)
 FIRST = tuple(n for n, k in KINDS.items() if not k.by_name)

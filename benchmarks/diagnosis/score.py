@@ -29,9 +29,7 @@ from scipy import stats
 from benchmarks.diagnosis import plan, records
 from benchmarks.diagnosis.fly import SINCE
 
-Line = Mapping[str, Any]
-"""The JSON object of one flight (``fly``), with its ``id``, ``kind`` and ``record``."""
-
+Line = Mapping[str, Any]  # the JSON object of one flight (``fly``), with its ``id``, ``kind`` and ``record``
 WORTH = {
     "right": 1.0,
     "part": 0.5,
@@ -276,6 +274,7 @@ The tables are made from `benchmarks/diagnosis/*.csv`.
     python -m benchmarks.diagnosis --ablate --jobs 2
 """
 
+# File of results, title, table and what to know about it
 SECTIONS = (
     ("reference", "Reference", flights, ""),
     (
@@ -303,7 +302,6 @@ Mean change: right 1, part and said 1/2, silent and unexplained 0, wrong -1.
 """,
     ),
 )
-"""File of results, title, table and what to know about it."""
 
 
 def page() -> str:

@@ -39,46 +39,29 @@ from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.record import ANGULAR_RATE
 from ragg_runtime.model import derive
 
+# A sheet that knows nothing of the 2 mm between the two sides of the board, and not that it does not
 UNLIFTED = sheet(height="0 mm", lift="10")
-"""A sheet that knows nothing of the 2 mm between the two sides of the board, and not that it does not."""
-
-FLAT = sheet(height="0 mm", lift="0.3")
-"""One that is sure, to 0.3 degrees, that they are in one plane."""
-
-SHORT = 1.4
-"""mm by which a sheet that is sure of its radius (to 0.02 mm) has it too small."""
-
-MISREAD = 1.03
-"""Factor on all rates, as of one who takes 15.9 counts per deg/s where the chip gives 16.4."""
-
+FLAT = sheet(height="0 mm", lift="0.3")  # one that is sure, to 0.3 degrees, that they are in one plane
+SHORT = 1.4  # mm by which a sheet that is sure of its radius (to 0.02 mm) has it too small
+MISREAD = 1.03  # factor on all rates, as of one who takes 15.9 counts per deg/s where the chip gives 16.4
 BACK = tuple(k + 1 for k in FRONT)
-MIXED = (FRONT[0], FRONT[1], BACK[2], BACK[3])
-"""A1, A2 of the front, A3, A4 of the back."""
-
-THINNED = 2
-"""Of so many samples one is kept."""
-
-NOISE = 0.3, 0.01
-"""m/s^2 and rad/s that are added: several times what the chips have."""
-
-FAR = 3.0
-"""Standard deviations within which a value agrees with what is known."""
-
+MIXED = (FRONT[0], FRONT[1], BACK[2], BACK[3])  # A1, A2 of the front, A3, A4 of the back
+THINNED = 2  # of so many samples one is kept
+NOISE = 0.3, 0.01  # m/s^2 and rad/s that are added: several times what the chips have
+FAR = 3.0  # standard deviations within which a value agrees with what is known
+# mm: how far the sensing elements of a quadruple may be from the middles of its chips, on average of four
 SCATTER = 0.3
-"""mm: how far the sensing elements of a quadruple may be from the middles of its chips, on average of four."""
-
 TURNS = ("imu-acceleration-misalignment", "imu-misalignment")
 """One side turned against the other: of the forces alone, or of the rates as well, where a milliradian is next to nothing."""
 
-WORTH = 5.0
-"""Sigmas below which an effect of known size need not be found."""
-
+WORTH = 5.0  # sigmas below which an effect of known size need not be found
+# Effects for which the survey of the array gives evidence
 FOUNDED = frozenset(
     {*TURNS, "gyro-delay", "imu-lever-arm", "imu-acceleration-bias"}
     | {"gyro-scale", "arm-length", "imu-saturation"}
 )
-"""Effects for which the survey of the array gives evidence."""
 
+# Cases of a recording: what of it is taken, and how
 CASES: Mapping[str, Mapping[str, Any]] = {
     "page": {},
     "first half": {"seconds": (0.0, record.LENGTH / 2)},
@@ -90,10 +73,8 @@ CASES: Mapping[str, Mapping[str, Any]] = {
     "half rate": {"thin": THINNED},
     "noise": {"noise": NOISE},
 }
-"""Cases of a recording: what of it is taken, and how."""
 
-SHIPPED = ("page", "first half", "second half", "half rate")
-"""Those that can be made of what is shipped."""
+SHIPPED = ("page", "first half", "second half", "half rate")  # those that can be made of what is shipped
 
 
 @dataclass(frozen=True)

@@ -27,44 +27,21 @@ Array = NDArray[np.float64]
 Raw = tuple[Array, Array, NDArray[np.bool_]]
 """Specific force (N, 8, 3) m/s^2, angular rate (N, 8, 3) rad/s, by the axes of the board, and what is saturated (N,)."""
 
-RATE = 62.5
-"""Hz."""
-
+RATE = 62.5  # Hz
 G0, PER_G, PER_DEGREE = 9.81, 2048.0, 16.4
 """m/s^2; counts per g and per deg/s, as the data sheet of the chip gives them for its ranges of 16 g and 2000 deg/s."""
 
-HALF = 0.00945
-"""Half the side of the square, m."""
-
-THICK = 1e-3
-"""Half the distance of the two sides of the board, m."""
-
-CORNERS = ((-1, 1), (-1, -1), (1, 1), (1, -1))
-"""Of sensors 1, 3, 5, 7 (front) and 2, 4, 6, 8 (back)."""
-
-RADIUS = 13.364
-"""mm: of the circle through them."""
-
-PLACES = ((2, 45, 1), (1, 225, 1), (0, 135, -1), (3, 315, -1))
-"""Corner, angle, deg, and sign of A1 ... A4."""
-
-FRONT = tuple(2 * corner for corner, *_ in PLACES)
-"""Sensors, counted from 0, that are A1 ... A4."""
-
-FULL_SCALE = 32760
-"""Counts from which a sensor is saturated."""
-
-REST = 0.05
-"""rad/s below which the array rests."""
-
-BLOCK = 64
-"""Samples of a rest that are averaged to one."""
-
-MOTION_FROM = 30.0
-"""rad/s that the array must reach before it counts as thrown about."""
-
-LENGTH = 45.0
-"""Length of the second record, which begins there, s: as small as serves."""
+HALF = 0.00945  # half the side of the square, m
+THICK = 1e-3  # half the distance of the two sides of the board, m
+CORNERS = ((-1, 1), (-1, -1), (1, 1), (1, -1))  # of sensors 1, 3, 5, 7 (front) and 2, 4, 6, 8 (back)
+RADIUS = 13.364  # mm: of the circle through them
+PLACES = ((2, 45, 1), (1, 225, 1), (0, 135, -1), (3, 315, -1))  # corner, angle, deg, and sign of A1 ... A4.
+FRONT = tuple(2 * corner for corner, *_ in PLACES)  # sensors, counted from 0, that are A1 ... A4.
+FULL_SCALE = 32760  # counts from which a sensor is saturated
+REST = 0.05  # rad/s below which the array rests
+BLOCK = 64  # samples of a rest that are averaged to one
+MOTION_FROM = 30.0  # rad/s that the array must reach before it counts as thrown about
+LENGTH = 45.0  # length of the second record, which begins there, s: as small as serves
 
 
 def packets(raw: bytes) -> NDArray[np.int16]:
