@@ -60,7 +60,9 @@ class ProjectedProblem:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "norms", np.linalg.norm(self.T[:, self.n_base :], axis=0))
-        object.__setattr__(self, "P", likelihood_ratio.project(self.T, self.n_base))
+        P = likelihood_ratio.project(self.T, self.n_base)
+        # with a positive diagonal: the signs of rows are rounding, and what is drawn of noise along them would change
+        object.__setattr__(self, "P", P * np.where(np.diag(P) < 0.0, -1.0, 1.0)[:, None])
 
     @property
     def chi2(self) -> float:
