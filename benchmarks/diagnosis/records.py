@@ -181,6 +181,17 @@ def gaps(G: Array, r: CleanOutput, rng: np.random.Generator) -> Array:
     return np.where(lost, np.nan, G)
 
 
+def louder_with(size: Callable[[Table], Array]) -> Change:
+    """White noise of the output besides, in proportion to something, twice as loud as the noise."""
+
+    def change(x: Table, r: CleanOutput, rng: np.random.Generator) -> Table:
+        s = size(x)
+        more = 2.0 * r.rms * s / np.sqrt(np.mean(s**2)) * rng.standard_normal(len(s))
+        return x | {"G_out": x["G_out"] + more}
+
+    return change
+
+
 # --- changes of other columns ----------------------------------------------------------------------------
 
 
@@ -368,6 +379,9 @@ KINDS: Mapping[str, RecordKind] = {
         lambda x, rng: Loudness(level=with_size(x, rng).level * with_temperature(x, rng).level)
     ),
     "red-along-axes": _asked(lambda x, rng: Loudness(red(x, rng).psd, along_axes(x, rng).level)),
+    # drifts stay as they are
+    "walk-and-warmth": _asked(walk, louder_with(lambda x: x["temperature"] - np.min(x["temperature"]))),
+    "walk-and-heave": _asked(walk, louder_with(lambda x: (x["a_z"] - np.mean(x["a_z"])) ** 2)),
     # Student's t at the noise's own level
     "heavy-with-size": _asked(
         with_size,
