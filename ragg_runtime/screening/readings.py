@@ -437,8 +437,10 @@ def _find_lines(x: Array, present: Mask, step: float) -> Mask:
         usual = float(np.median(near[near > finest])) if np.any(near > finest) else 0.0
         off = np.abs(x[first : last + 1] - np.linspace(x[first], x[last], last - first + 1))
         if np.any(kinks > KINK * usual) and np.max(off) <= finest < abs(x[last] - x[first]) / COARSE:
-            filled[first + 1 : last] |= len(x) * (finest / usual) ** (last - first - 1) < RARE
-    return filled
+            bent = max(float(np.max(bend[run])), 2 * step, float(np.spacing(8 * np.max(np.abs(x)))))
+            filled[first + 1 : last] |= len(x) * (bent / usual) ** (last - first - 1) < RARE
+    few = np.sum(filled) < FEWEST  # of numbers in single precision a few are on a line by chance
+    return filled & ~find_short_runs(filled, 2) if few else filled
 
 
 def _find_lost(x: Array, present: Mask, stuck: Mask) -> Mask:
