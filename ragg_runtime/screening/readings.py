@@ -434,7 +434,7 @@ def _find_lines(x: Array, present: Mask, step: float) -> Mask:
         first, last = run.start, run.stop + 1
         kinks = bend[[max(first - 1, 0), min(run.stop, len(bend) - 1)]]
         near = bend[max(first - LOCAL, 0) : last + LOCAL]
-        usual = float(np.median(near[near > finest])) if np.any(near > finest) else 0.0
+        usual = float(np.median(near[near > finest])) if np.any(near > finest) else np.inf
         off = np.abs(x[first : last + 1] - np.linspace(x[first], x[last], last - first + 1))
         if np.any(kinks > KINK * usual) and np.max(off) <= finest < abs(x[last] - x[first]) / COARSE:
             bent = max(float(np.max(bend[run])), 2 * step, float(np.spacing(8 * np.max(np.abs(x)))))
