@@ -59,7 +59,7 @@ def accelerometer(
     tape, layout = Tape(), form.layout
     hooked = [(e, e.values) for e in effects]
     c = Context(tape, recorded_motion(), Omega=OMEGA if form.kinematics == "platform" else SPIN_RATE)
-    c.small = frozenset(s for e in candidates for s in _fitted(e) if e.at_zero)
+    c.small = frozenset(s for e in candidates for s in _list_fitted(e) if e.at_zero)
     c.enter(frozenset())
     _sensing(hooked, c, layout)
     _turn_disc(hooked, c)
@@ -91,14 +91,14 @@ def accelerometer(
 Hooked = Sequence[tuple[Effect, Values]]
 
 
-def _fitted(e: Effect) -> frozenset[sp.Symbol]:
+def _list_fitted(e: Effect) -> frozenset[sp.Symbol]:
     return frozenset(e.symbol(q) for q in e.parameters if q.fitted)
 
 
 def _one_by_one(hooked: Hooked, c: Context) -> Iterator[tuple[Effect, Values]]:
     """Apply one effect after another; the context holds whose hook is called."""
     for e, p in hooked:
-        c.enter(_fitted(e))
+        c.enter(_list_fitted(e))
         yield e, p
     c.enter(frozenset())
 

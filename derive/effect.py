@@ -76,27 +76,27 @@ class Context:
     small: frozenset[sp.Symbol] = frozenset()
     about: About = EVERYTHING
 
-    def enter(self, own: frozenset[sp.Symbol]) -> None:
+    def enter(self, parameters: frozenset[sp.Symbol]) -> None:
         """What is written down next is an effect's with these fitted parameters (none: that of the instrument).
 
         What a candidate changes is of first order in its own parameters, all of them ``small``; what others change is of
         second order there, so that the time derivatives of the instrument without them serve.
         """
-        candidate = bool(own) and own <= self.small
-        self.about = About(self.small - own, 0) if candidate else About(self.small)
+        candidate = bool(parameters) and parameters <= self.small
+        self.about = About(self.small - parameters, 0) if candidate else About(self.small)
 
     def in_disc_frame(self, v: sp.Matrix) -> sp.Matrix:
         """A vector (3) or tensor (3 x 3) of the measurement frame along the axes in which motion and geometry are resolved.
 
         These are those of the disc at rest, z along its axis; of a disc as the paper's they are the same.
         """
-        return v if self.axes is None else self._turned(self.axes.T, v, "in_disc")
+        return v if self.axes is None else self._turn(self.axes.T, v, "in_disc")
 
     def in_measurement_frame(self, v: sp.Matrix) -> sp.Matrix:
         """The other way round."""
-        return v if self.axes is None else self._turned(self.axes, v, "in_measurement")
+        return v if self.axes is None else self._turn(self.axes, v, "in_measurement")
 
-    def _turned(self, by: sp.Matrix, v: sp.Matrix, name: str) -> sp.Matrix:
+    def _turn(self, by: sp.Matrix, v: sp.Matrix, name: str) -> sp.Matrix:
         """A turned vector or tensor, each component with a name of its own: what follows may differentiate it often."""
         return self.tape.let_each(name, by * v if v.shape[1] == 1 else by * v * by.T)
 

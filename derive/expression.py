@@ -173,9 +173,9 @@ def _parse(text: str, parameters: Collection[str]) -> ast.Expression:
             tree = _tree(text, names)
             break
         except (SyntaxError, ValueError, MemoryError, RecursionError) as error:
-            found = error.msg if isinstance(error, SyntaxError) else str(error)
+            reason = error.msg if isinstance(error, SyntaxError) else str(error)
     else:
-        raise ExpressionError(f"{text!r} is not an expression ({found})")
+        raise ExpressionError(f"{text!r} is not an expression ({reason})")
     if not text.isascii():
         raise ExpressionError(f"{text!r}: letters, digits and signs of ASCII only")
     _translate(tree.body, symbol)
@@ -221,12 +221,12 @@ def _translate(node: ast.expr, name: Any, depth: int = 0, degree: int = 1) -> sp
         base = inner(node.left, n)
         if base.is_Rational and n * _bits(base) > _BITS:
             raise ExpressionError("a power of a number is out of range")
-        return _sized(base**n)
+        return _require_size(base**n)
     if isinstance(node, ast.BinOp) and type(node.op) in OPERATORS:
         left, right = inner(node.left), inner(node.right)
         if isinstance(node.op, ast.Div) and right == 0:
             raise ExpressionError("division by zero")
-        return _sized(OPERATORS[type(node.op)](left, right))
+        return _require_size(OPERATORS[type(node.op)](left, right))
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in FUNCTIONS:
         if len(node.args) != 1 or node.keywords or isinstance(node.args[0], ast.Starred):
             raise ExpressionError(f"{node.func.id} takes one argument")
@@ -236,7 +236,7 @@ def _translate(node: ast.expr, name: Any, depth: int = 0, degree: int = 1) -> sp
             raise ExpressionError(f"{node.func.id} of a number: write its value")
         return FUNCTIONS[node.func.id](argument)
     raise ExpressionError(
-        f"{_shown(node)!r} is not allowed: numbers, names, + - * / **, parentheses and {', '.join(FUNCTIONS)}"
+        f"{_show(node)!r} is not allowed: numbers, names, + - * / **, parentheses and {', '.join(FUNCTIONS)}"
     )
 
 
@@ -252,7 +252,7 @@ def _bits(e: sp.Expr) -> int:
     return max(int(e.p).bit_length(), int(e.q).bit_length())
 
 
-def _sized(e: sp.Expr) -> sp.Expr:
+def _require_size(e: sp.Expr) -> sp.Expr:
     """``e``, unless it holds a number with more digits than any quantity has."""
     for number in e.atoms(sp.Rational):
         if _bits(number) > _BITS:
@@ -260,7 +260,7 @@ def _sized(e: sp.Expr) -> sp.Expr:
     return e
 
 
-def _shown(node: ast.AST) -> str:
+def _show(node: ast.AST) -> str:
     try:
         return ast.unparse(node)[:40]
     except (RecursionError, ValueError):

@@ -122,7 +122,7 @@ def folded(form: SymbolicForm) -> Folded:
         coefficients=coefficients,
         own=own,
         numbers=_numbers(kinematics, layout, used),
-        value=_nested({m: symbol(f"c[{n}]") for n, m in enumerate(monomials)}, 0, _names(layout)),
+        value=_nest({m: symbol(f"c[{n}]") for n, m in enumerate(monomials)}, 0, _names(layout)),
         inputs=MOTION if kinematics == "platform" else (*MOTION, *SPIN_CHANNELS),
         parameters=instrument_parameters(layout),
         layout=layout.without_common(),
@@ -131,16 +131,16 @@ def folded(form: SymbolicForm) -> Folded:
 
 def _in_parts() -> tuple[Sequence[Monomial], tuple[sp.Expr, ...], tuple[tuple[AccelerometerTerm, ...], ...]]:
     """Of the paper's instrument, whose quarter turns only swap numbers: coefficients as sums of few expressions."""
-    own = _standing()
+    monomials_of_one = _standing()
     expressions: dict[sp.Expr, int] = {}
     sums: dict[Monomial, list[AccelerometerTerm]] = {}
     for nominal in (True, False):  # equal parts of the coefficients first: little is lost when they cancel
         for j, (sign, quarter) in enumerate(zip(SIGNS, QUARTER_TURNS, strict=True)):
-            for powers, coefficient in own.items():
-                target, turned_sign = _turned(powers, quarter)
-                found = part(coefficient, nominal)
-                if found:
-                    number = expressions.setdefault(readable(found), len(expressions))
+            for powers, coefficient in monomials_of_one.items():
+                target, turned_sign = _turn(powers, quarter)
+                coefficient_part = part(coefficient, nominal)
+                if coefficient_part:
+                    number = expressions.setdefault(readable(coefficient_part), len(expressions))
                     sums.setdefault(target, []).append(AccelerometerTerm(sign * turned_sign, number, j))
     monomials = sorted(sums, key=_reading)
     return monomials, tuple(expressions), tuple(tuple(sums[m]) for m in monomials)
@@ -168,19 +168,19 @@ def _spin() -> sp.Matrix:
     return sp.Matrix([[COS_PHI, -SIN_PHI, 0], [SIN_PHI, COS_PHI, 0], [0, 0, 1]])
 
 
-def _turned(powers: Monomial, quarter: int) -> tuple[Monomial, int]:
+def _turn(powers: Monomial, quarter: int) -> tuple[Monomial, int]:
     """A monomial in an accelerometer's own numbers, ``quarter`` turns ahead, by those of the disc; its sign."""
     place = (("r", 1), ("t", 1)), (("t", 1), ("r", -1)), (("r", -1), ("t", -1)), (("t", -1), ("r", 1))
     to = {**dict(zip("rt", place[quarter], strict=True)), "z": ("z", 1)}
-    found, sign = [0] * len(TURNED), 1
+    turned, sign = [0] * len(TURNED), 1
     for name, power in zip(TURNED, powers, strict=True):
         letter, directions = name.split("_")
         sign *= sp.prod(to[d][1] for d in directions) ** power
-        found[TURNED.index(f"{letter}_{''.join(to[d][0] for d in directions)}")] += power
-    return tuple(found), int(sign)
+        turned[TURNED.index(f"{letter}_{''.join(to[d][0] for d in directions)}")] += power
+    return tuple(turned), int(sign)
 
 
-def _nested(terms: Mapping[Monomial, sp.Symbol], first: int, names: tuple[str, ...]) -> sp.Expr:
+def _nest(terms: Mapping[Monomial, sp.Symbol], first: int, names: tuple[str, ...]) -> sp.Expr:
     """A polynomial as c + v (... ) + w (...): every variable multiplies what holds it, from ``first`` on."""
     rest = dict(terms)
     total = rest.pop((0,) * len(TURNED), sp.Integer(0))
@@ -188,7 +188,7 @@ def _nested(terms: Mapping[Monomial, sp.Symbol], first: int, names: tuple[str, .
         having = {m: c for m, c in rest.items() if m[n]}
         if having:
             lower = {(*m[:n], m[n] - 1, *m[n + 1 :]): c for m, c in having.items()}
-            total += symbol(names[n]) * _nested(lower, n, names)
+            total += symbol(names[n]) * _nest(lower, n, names)
             rest = {m: c for m, c in rest.items() if m not in having}
     return total
 
@@ -216,25 +216,25 @@ def _numbers(kinematics: Kinematics, layout: SymbolicLayout, used: tuple[bool, .
     ):  # what the spin adds looks from the disc as from the platform: its large part stays exact
         turned += stages.spin_gradient(motion._replace(omega=spin.T * motion.omega), RECORDED_SPIN)
     outputs = zip(_names(layout), (*(spin.T * motion.a), *turned), strict=True)
-    wanted = [x for x, u in zip(outputs, used, strict=True) if u]
-    return settled(tape.assignments, {}).program(wanted)
+    used_outputs = [x for x, u in zip(outputs, used, strict=True) if u]
+    return settled(tape.assignments, {}).program(used_outputs)
 
 
 class Polynomial(dict[Monomial, sp.Expr]):
     """Coefficients by their monomials."""
 
     def __add__(self, other: Polynomial) -> Polynomial:
-        found = Polynomial(self)
+        total = Polynomial(self)
         for m, c in other.items():
-            found[m] = found[m] + c if m in found else c
-        return found
+            total[m] = total[m] + c if m in total else c
+        return total
 
     def __mul__(self, other: Polynomial) -> Polynomial:
-        found: dict[Monomial, list[sp.Expr]] = {}
+        products: dict[Monomial, list[sp.Expr]] = {}
         for m, c in self.items():
             for n, d in other.items():
-                found.setdefault(tuple(a + b for a, b in zip(m, n, strict=True)), []).append(c * d)
-        return Polynomial({m: sp.Add(*terms) for m, terms in found.items()})
+                products.setdefault(tuple(a + b for a, b in zip(m, n, strict=True)), []).append(c * d)
+        return Polynomial({m: sp.Add(*terms) for m, terms in products.items()})
 
 
 def standing(order: Order, layout: SymbolicLayout) -> tuple[Sequence[Monomial], Program]:
@@ -269,11 +269,11 @@ def standing(order: Order, layout: SymbolicLayout) -> tuple[Sequence[Monomial], 
             terms = converted(e, of_symbol, of_other).items()
             named_terms = {m: tape.let(f"{s.name}_{''.join(map(str, m))}", c) for m, c in terms if c != 0}
             values[s] = Polynomial(named_terms)
-    found = converted(chain.voltage, of_symbol, of_other)
-    outputs = [("".join(map(str, m)), c) for m, c in found.items()]
-    kept = _occurring(tape, outputs, layout)
-    monomials = sorted((m for m, (n, _) in zip(found, outputs, strict=True) if n in kept), key=_reading)
-    at = dict(zip(found, outputs, strict=True))
+    voltage = converted(chain.voltage, of_symbol, of_other)
+    outputs = [("".join(map(str, m)), c) for m, c in voltage.items()]
+    kept = _find_occurring(tape, outputs, layout)
+    monomials = sorted((m for m, (n, _) in zip(voltage, outputs, strict=True) if n in kept), key=_reading)
+    at = dict(zip(voltage, outputs, strict=True))
     return monomials, settled(tape.assignments, dict(layout.common)).program([at[m] for m in monomials])
 
 
@@ -282,18 +282,18 @@ def _reading(m: Monomial) -> tuple[object, ...]:
     return sum(m), tuple(-k for k in m)
 
 
-def _occurring(tape: Tape, outputs: Sequence[tuple[str, sp.Expr]], layout: SymbolicLayout) -> set[str]:
+def _find_occurring(tape: Tape, outputs: Sequence[tuple[str, sp.Expr]], layout: SymbolicLayout) -> set[str]:
     """Outputs that do not vanish at some place of the layout, by its constants that are 0, 1 or -1."""
     places = {
         tuple((n, int(v[j])) for n, v in layout.constants.items() if v[j] in (0.0, 1.0, -1.0))
         for j in range(layout.size)
     }
-    found: set[str] = set()
+    names: set[str] = set()
     for place in places:
-        known: dict[sp.Symbol, sp.Expr] = {symbol(n): sp.Integer(v) for n, v in place}
+        values: dict[sp.Symbol, sp.Expr] = {symbol(n): sp.Integer(v) for n, v in place}
         for s, e in tape.assignments:
-            changed = e.xreplace(known)
+            changed = e.xreplace(values)
             if changed.is_Atom or (-changed).is_Atom:
-                known[s] = changed
-        found |= {n for n, e in outputs if e.xreplace(known) != 0}
-    return found
+                values[s] = changed
+        names |= {n for n, e in outputs if e.xreplace(values) != 0}
+    return names

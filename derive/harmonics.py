@@ -33,16 +33,16 @@ class Series:
         c = dict(self.coefficients)
         for n, v in other.coefficients.items():
             c[n] = c[n] + v if n in c else v
-        return self._kept(c)
+        return self._drop_zeros(c)
 
     def __mul__(self, other: Series) -> Series:
         c: dict[int, PolyElement] = {}
         for n, v in self.coefficients.items():
             for m, w in other.coefficients.items():
                 c[n + m] = c[n + m] + v * w if n + m in c else v * w
-        return self._kept(c)
+        return self._drop_zeros(c)
 
-    def _kept(self, c: dict[int, PolyElement]) -> Series:
+    def _drop_zeros(self, c: dict[int, PolyElement]) -> Series:
         return Series(self.ring, {n: v for n, v in c.items() if v})
 
     def cosine(self, n: int) -> PolyElement:

@@ -182,8 +182,8 @@ def of_point(p: Values, c: Context, r: sp.Matrix) -> sp.Matrix:
     """(3,) m/s^2: what a point attracts at r more than at the disc's centre; of a sphere outside it is the same."""
     away, centre = place(p, c) - r, place(p, c)
     slope = -_POTENTIAL.diff(_AT)  # by where it is felt
-    there, here = (slope.xreplace(dict(zip(_AT, v, strict=True))) for v in (away, centre))
-    return G * p["M"] * (there - here)
+    at_point, at_centre = (slope.xreplace(dict(zip(_AT, v, strict=True))) for v in (away, centre))
+    return G * p["M"] * (at_point - at_centre)
 
 
 def gradient_of_point(p: Values, c: Context) -> sp.Matrix:

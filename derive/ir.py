@@ -167,8 +167,8 @@ def chain(
     outputs = [(n, by(s)) for s, n, _ in named]
     derivatives = at.program(outputs)
     parameters = (*instrument_parameters(layout), *effect_parameters(effects, layout.size))
-    known = {p.name for p in parameters}
-    reserved = known | {"cos_phi", "sin_phi", "time", *layout.constants} | {c.name for c in MOTION}
+    names = {p.name for p in parameters}
+    reserved = names | {"cos_phi", "sin_phi", "time", *layout.constants} | {c.name for c in MOTION}
     read = {s.name for program in (value, derivatives) for s in program.inputs}
     extra = sorted(read - reserved)
     return ChainProgram(
@@ -222,6 +222,6 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
 
 def _manifest_of_parameter(e: Effect, q: EffectParameter) -> Mapping[str, object]:
     seldom = ("physical", "largest", "like", "late", "growing", "shape")
-    told = {"name": q.name, "symbol": e.symbol(q).name, **vars(q)}
-    told["neutral"] = q.neutral if math.isfinite(q.neutral) else None
-    return {n: v for n, v in told.items() if v or n not in seldom}
+    entries = {"name": q.name, "symbol": e.symbol(q).name, **vars(q)}
+    entries["neutral"] = q.neutral if math.isfinite(q.neutral) else None
+    return {n: v for n, v in entries.items() if v or n not in seldom}

@@ -91,8 +91,8 @@ class SymbolicLayout:
 
     def without_common(self) -> SymbolicLayout:
         """The layout with the other constants alone."""
-        known = {s.name for s in self.common}
-        return replace(self, constants={n: v for n, v in self.constants.items() if n not in known})
+        common = {s.name for s in self.common}
+        return replace(self, constants={n: v for n, v in self.constants.items() if n not in common})
 
     def has(self, constant: sp.Symbol) -> bool:
         return constant.name in self.constants
@@ -102,14 +102,14 @@ def rest_of_angles(
     degrees: Sequence[Fraction | None], cosines: Sequence[float], sines: Sequence[float]
 ) -> Mapping[str, tuple[float, ...]]:
     """``SymbolicLayout.rest`` of angles in degrees, where they are known exactly (``None``: nothing is added)."""
-    found: dict[str, tuple[float, ...]] = {}
-    for name, of, known in (("cos_j", sp.cos, cosines), ("sin_j", sp.sin, sines)):
+    rests: dict[str, tuple[float, ...]] = {}
+    for name, of, floats in (("cos_j", sp.cos, cosines), ("sin_j", sp.sin, sines)):
         exact = [None if d is None else of(sp.Rational(str(d)) * sp.pi / 180) for d in degrees]
-        pairs = zip(exact, known, strict=True)
+        pairs = zip(exact, floats, strict=True)
         rest = [0.0 if e is None else float((e - sp.Rational(x)).evalf(20, maxn=60)) for e, x in pairs]
         if any(rest):
-            found[name] = tuple(rest)
-    return found
+            rests[name] = tuple(rest)
+    return rests
 
 
 _COSINES, _SINES = (1.0, 0.0, -1.0, 0.0), (0.0, 1.0, 0.0, -1.0)

@@ -19,18 +19,18 @@ def is_name(x: object) -> bool:
 def id_in_code(identifier: str) -> str:
     """What an effect's id is in names of generated code; of two ids two names, neither with ``__``."""
     # X is in no id of small letters, so that a-b and a_b do not meet.
-    return identifier.replace("-", "_") if _ID.fullmatch(identifier) else "X" + _spelt(identifier)
+    return identifier.replace("-", "_") if _ID.fullmatch(identifier) else "X" + _spell(identifier)
 
 
 def parameter_in_code(identifier: str, name: str) -> str:
     """What a parameter of an effect is in generated code."""
-    own = name if _PARAMETER.fullmatch(name) else "X__" + _spelt(name)
-    return f"{id_in_code(identifier)}__{own}"
+    spelling = name if _PARAMETER.fullmatch(name) else "X__" + _spell(name)
+    return f"{id_in_code(identifier)}__{spelling}"
 
 
 def channel_in_code(column: str) -> str:
     """What a recorded channel is in generated code that has no name for it; :func:`channel_of` is the way back."""
-    return f"H__{_spelt(column)}" if "-" in column else f"C__{column}"
+    return f"H__{_spell(column)}" if "-" in column else f"C__{column}"
 
 
 def channel_of(name: str) -> str:
@@ -40,7 +40,7 @@ def channel_of(name: str) -> str:
     return name.removeprefix("C__")
 
 
-def _spelt(name: str) -> str:
+def _spell(name: str) -> str:
     """A name without hyphens that marks which of its underscores were hyphens."""
     return name.replace("_", "_0").replace("-", "_1")
 

@@ -58,8 +58,8 @@ def derive_base() -> Files:
     full = _derive(SymbolicForm(kinematics="full"), (), catalogue(), packaged=True)
     below = {f"{FULL}/{name}": text for name, text in full.items()}
     below |= {**recognisers(catalogue()), **recogniser_package(catalogue())}
-    own = _derive(PAPERS, (), catalogue(), analytical, simple, packaged=True, below=tuple(below))
-    return dict(sorted({**own, **below}.items()))
+    platform = _derive(PAPERS, (), catalogue(), analytical, simple, packaged=True, below=tuple(below))
+    return dict(sorted({**platform, **below}.items()))
 
 
 def derive_model(
@@ -90,7 +90,7 @@ def _derive(
     below: Sequence[str] = (),
 ) -> Files:
     candidates = [e for e in candidates if not e.moot(form.order, form.kinematics)]  # held already
-    forms = [] if _active(effects) else [folded(form)]
+    forms = [] if _select_active(effects) else [folded(form)]
     chains = _chains(form, effects, candidates)
     models: list[ir.Harmonic | ir.ChainProgram | Folded] = [*harmonics, *forms, *chains]
     files: dict[str, str] = {}
@@ -108,7 +108,7 @@ def _derive(
         "format": FORMAT,
         "sympy": sp.__version__,
         "digest": hashlib.sha256(text.encode()).hexdigest(),
-        **({} if form == PAPERS else {"form": _told(form)}),
+        **({} if form == PAPERS else {"form": _describe_form(form)}),
         "effects": [e.id for e in effects],
         "files": sorted([*files, *below, "manifest.json"]),
         "models": {m.name: ir.manifest_of_model(m) for m in models},
@@ -123,7 +123,7 @@ def _derive(
     return files
 
 
-def _active(effects: Sequence[Effect]) -> list[Effect]:
+def _select_active(effects: Sequence[Effect]) -> list[Effect]:
     """Those that change the voltages."""
     return [e for e in effects if e.kind in ("deterministic", "step")]
 
@@ -131,18 +131,18 @@ def _active(effects: Sequence[Effect]) -> list[Effect]:
 def _chains(
     form: SymbolicForm, effects: Sequence[Effect], candidates: Sequence[Effect]
 ) -> list[ir.ChainProgram]:
-    active = _active(effects)
+    active = _select_active(effects)
     title = "The instrument as a chain of stages (paper, Eq. 1-15)."
     chains = [ir.chain(active, "chain", title, form)]
-    known = {e.id for e in effects}
-    open_ = [e for e in candidates if e.id not in known and e.kind != "output" and e.searched]
+    ids = {e.id for e in effects}
+    open_ = [e for e in candidates if e.id not in ids and e.kind != "output" and e.searched]
     if open_:
         title = "Signatures: what each candidate effect would add to V_j."
         chains.append(ir.chain(active, "signatures", title, form, open_))
     return chains
 
 
-def _told(form: SymbolicForm) -> Mapping[str, object]:
+def _describe_form(form: SymbolicForm) -> Mapping[str, object]:
     """A form as the manifest lists it; the paper's layout is left out."""
     described = dataclasses.asdict(form)
     del described["layout"]["own"]  # it follows from the rest of model.toml
@@ -201,7 +201,7 @@ def write(files: Mapping[str, str], folder: Path) -> list[str]:
         temporary.write_bytes(text.encode())
         temporary.replace(path)
         changed.append(name)
-    for name in _present(folder):
+    for name in _list_files(folder):
         if name not in files:
             (folder / name).unlink()
             changed.append(name)
@@ -210,7 +210,7 @@ def write(files: Mapping[str, str], folder: Path) -> list[str]:
 
 def diff_files(files: Mapping[str, str], folder: Path, lines: int = 40) -> str:
     """Empty if ``folder`` holds these files and only them, byte for byte; else a diff."""
-    present = _present(folder)
+    present = _list_files(folder)
     report = [f"missing: {n}" for n in files if n not in present]
     report += [f"not derived: {n}" for n in present if n not in files]
     for name in (n for n in files if n in present):
@@ -224,11 +224,11 @@ def diff_files(files: Mapping[str, str], folder: Path, lines: int = 40) -> str:
     return "\n".join(report)
 
 
-def _present(folder: Path) -> list[str]:
+def _list_files(folder: Path) -> list[str]:
     """The files below a folder; links are none, for what they lead to is elsewhere."""
     if folder.is_symlink():
         return []
-    found = (
+    paths = (
         p for p in folder.rglob("*") if p.is_file() and not p.is_symlink() and "__pycache__" not in p.parts
     )
-    return sorted(p.relative_to(folder).as_posix() for p in found)
+    return sorted(p.relative_to(folder).as_posix() for p in paths)

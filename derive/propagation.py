@@ -120,13 +120,13 @@ class Collected:
     @cached_property
     def largest(self) -> Mapping[tuple[int, tuple[int, ...], tuple[int, ...]], Fraction]:
         """(harmonic, powers of the motion numbers, powers of the parameters) -> size of its coefficient, the larger of both phases'."""
-        found: dict[tuple[int, tuple[int, ...], tuple[int, ...]], Fraction] = {}
+        sizes: dict[tuple[int, tuple[int, ...], tuple[int, ...]], Fraction] = {}
         for (n, _), terms in self.generic.items():
             for motion, coefficient in terms.items():
                 for parameters, c in coefficient.terms():
                     value = abs(Fraction(int(c.numerator), int(c.denominator)))
-                    found[n, motion, parameters] = max(value, found.get((n, motion, parameters), value))
-        return found
+                    sizes[n, motion, parameters] = max(value, sizes.get((n, motion, parameters), value))
+        return sizes
 
 
 def monomial(powers: Sequence[int]) -> sp.Expr:
@@ -157,11 +157,11 @@ def voltage_of_one(ring: PolyRing, motion: Mapping[str, sp.Expr]) -> Series:
     generator = {s.name: constant(ring, g) for s, g in zip(ring.symbols, ring.gens, strict=True)}
     one, zero = constant(ring, ring.one), constant(ring, ring.zero)
     turning = dict(zip((COS_PHI, SIN_PHI), rotating(ring), strict=True))
-    known = turning | {symbol(n): series((), e, ring, turning) for n, e in motion.items()}
-    known |= {COS_J: one, SIN_J: zero, symbol("k_VI"): one, symbol("radius"): zero}
-    known |= {symbol("K1"): generator["k1"], symbol("dR"): generator["R"]}
+    values = turning | {symbol(n): series((), e, ring, turning) for n, e in motion.items()}
+    values |= {COS_J: one, SIN_J: zero, symbol("k_VI"): one, symbol("radius"): zero}
+    values |= {symbol("K1"): generator["k1"], symbol("dR"): generator["R"]}
     a = accelerometer()
-    return series(a.tape.assignments, a.voltage, ring, known)
+    return series(a.tape.assignments, a.voltage, ring, values)
 
 
 def ideal(c: Collected) -> dict[str, tuple[MonomialTerm, ...]]:

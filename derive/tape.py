@@ -29,11 +29,11 @@ def partials(e: sp.Expr) -> Mapping[sp.Symbol, sp.Expr]:
     One pass over the tree for all symbols: calling ``sympy.diff`` for one after the other costs ten times
     as much where an expression has many. Models that are derived one after the other share most of their expressions.
     """
-    found: dict[sp.Symbol, list[sp.Expr]] = {}
+    products: dict[sp.Symbol, list[sp.Expr]] = {}
 
     def descend(e: sp.Expr, factor: sp.Expr) -> None:
         if e.is_Symbol:
-            found.setdefault(e, []).append(factor)
+            products.setdefault(e, []).append(factor)
         elif e.is_Add:
             for term in e.args:
                 descend(term, factor)
@@ -55,10 +55,10 @@ def partials(e: sp.Expr) -> Mapping[sp.Symbol, sp.Expr]:
                 descend(e.args[0], factor * e.fdiff())
                 return
             for s, d in slopes.items():
-                found.setdefault(s, []).append(factor * d)
+                products.setdefault(s, []).append(factor * d)
 
     descend(e, sp.Integer(1))
-    sums = {s: sp.Add(*found[s]) for s in sorted(found, key=lambda s: s.name)}
+    sums = {s: sp.Add(*products[s]) for s in sorted(products, key=lambda s: s.name)}
     return {s: d for s, d in sums.items() if d != 0}
 
 
@@ -167,10 +167,10 @@ class Tape:
         """The lowest degree in the ``small`` symbols, at least, of any term of an expression."""
         if not small or e.is_Number:
             return 0
-        known = self._degrees.setdefault(small, {})
-        if (found := known.get(e)) is None:
-            found = known[e] = self._degree(e, small)
-        return found
+        degrees = self._degrees.setdefault(small, {})
+        if (degree := degrees.get(e)) is None:
+            degree = degrees[e] = self._degree(e, small)
+        return degree
 
     def _degree(self, e: sp.Expr, small: frozenset[sp.Symbol]) -> int:
         if e.is_Symbol:
@@ -228,15 +228,15 @@ class Settled:
 
 def settled(assignments: Iterable[tuple[sp.Symbol, sp.Expr]], values: Mapping[sp.Symbol, sp.Expr]) -> Settled:
     """Put ``values`` in and propagate what became constant."""
-    known = dict(values)
+    constants = dict(values)
     kept: list[tuple[sp.Symbol, sp.Expr]] = []
     for s, e in assignments:
-        value = e.xreplace(known)
+        value = e.xreplace(constants)
         if _is_plain(value):
-            known[s] = value
+            constants[s] = value
         else:
             kept.append((s, value))
-    return Settled(known, tuple(kept))
+    return Settled(constants, tuple(kept))
 
 
 def live(

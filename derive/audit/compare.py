@@ -70,7 +70,7 @@ class Reader:
         """The polynomial of ``text``; raises :class:`NotReadable`."""
         meaning = {"number": self._number, "symbol": self._symbol, "combination": self._combination}
         try:
-            return eval(_in_python(text), meaning)
+            return eval(_write_python(text), meaning)
         except (SyntaxError, KeyError, ValueError) as error:
             raise NotReadable(f"{text!r}: {error}") from error
 
@@ -86,19 +86,19 @@ class Reader:
         return sum((self.symbols[n] * s for n, s in zip(names, subscripts, strict=True)), self.ring.zero)
 
 
-def _in_python(text: str) -> str:
+def _write_python(text: str) -> str:
     """The text as an expression of Python, with the signs of multiplication that are not printed."""
-    found, after_factor, at, text = [], False, 0, text.replace(" ", "")
+    tokens, after_factor, at, text = [], False, 0, text.replace(" ", "")
     while at < len(text):
         token = _TOKEN.match(text, at)
         if token is None:
             raise NotReadable(f"{text!r}: stopped before {text[at:]!r}")
         at, kind = token.end(), token.lastgroup
         if after_factor and (kind in ("head", "number", "symbol") or token[0] == "("):
-            found.append("*")
-        found.append(_IN_PYTHON[kind].format(token[kind] if kind else ""))
+            tokens.append("*")
+        tokens.append(_IN_PYTHON[kind].format(token[kind] if kind else ""))
         after_factor = kind not in ("head", "sign") or token[0] == ")"
-    return "".join(found)
+    return "".join(tokens)
 
 
 COMBINATIONS: tuple[str, ...] = ("D12", "D34", "D1234", "Sigma")
@@ -249,7 +249,7 @@ def compare(printed: Reading, derived: PolyElement) -> EquationComparison:
     touched = {m for a in atoms for m in meaning[a.monomial]}
     missing = [Change(m, QQ(0), v) for m, v in rest.items() if m not in touched]
     confirmed = len(atoms) - len(wrong)
-    return EquationComparison(printed.equation, len(atoms), confirmed, *_grouped(printed, wrong, missing))
+    return EquationComparison(printed.equation, len(atoms), confirmed, *_group(printed, wrong, missing))
 
 
 def monomial(ring: PolyRing, powers: Monomial) -> PolyElement:
@@ -263,7 +263,7 @@ def _single_fix(weights: Mapping[Monomial, Rational], rest: Mapping[Monomial, Ra
     return fixes[0] if fixes and fixes[0] is not None and all(f == fixes[0] for f in fixes) else None
 
 
-def _grouped(
+def _group(
     printed: Reading, wrong: list[tuple[Atom, Rational]], missing: list[Change]
 ) -> tuple[tuple[Mistake, ...], tuple[Change, ...]]:
     """Mistakes by printed term; a missing monomial is counted to the wrong term with the same motion."""
@@ -287,8 +287,8 @@ def _grouped(
 
 def amplitude(left: str) -> str:
     """Name of the amplitude on a printed left side: ``A_{2\\Omega}^s`` is A_2s."""
-    found = re.fullmatch(r"A_\{?(\d?)\\Omega\}?\^([cs])", left)
-    return f"A_{found[1] or 1}{found[2]}" if found else "A_0"
+    match = re.fullmatch(r"A_\{?(\d?)\\Omega\}?\^([cs])", left)
+    return f"A_{match[1] or 1}{match[2]}" if match else "A_0"
 
 
 def derived_amplitude(collected: Collected, name: str) -> PolyElement:
@@ -329,10 +329,10 @@ def _expansion(ring: PolyRing, redundant: Mapping[str, PolyElement], square: Pol
 
     def expand(powers: Monomial) -> PolyElement:
         left = dict(zip(names, powers, strict=True))
-        found = square ** (left.pop("omega_im") // 2)
+        product = square ** (left.pop("omega_im") // 2)
         for name, value in redundant.items():
-            found *= value ** left.pop(name)
-        return found * monomial(ring, tuple(left.get(n, 0) for n in names))
+            product *= value ** left.pop(name)
+        return product * monomial(ring, tuple(left.get(n, 0) for n in names))
 
     return expand
 
@@ -353,15 +353,15 @@ class Equation:
 
 
 def _read() -> tuple[Equation, ...]:
-    found: list[tuple[str, str, list[str]]] = []
+    equations: list[tuple[str, str, list[str]]] = []
     text = resources.files("derive.audit").joinpath("printed.txt").read_text("utf-8")
     for line in text.splitlines():
         if line.startswith("  "):
-            found[-1][2].append(line.strip())
+            equations[-1][2].append(line.strip())
         elif not line.startswith("#"):
             number, _, left = line.partition(" ")
-            found.append((number, left, []))
-    return tuple(Equation(number, left, tuple(terms)) for number, left, terms in found)
+            equations.append((number, left, []))
+    return tuple(Equation(number, left, tuple(terms)) for number, left, terms in equations)
 
 
 PRINTED = _read()

@@ -52,11 +52,11 @@ def points(count: int, seed: int) -> tuple[NumericPoint, ...]:
     def vector() -> Vector:
         return np.array([number() for _ in range(3)])
 
-    made = []
+    sample = []
     for _ in range(count):
         (xx, xy, xz), (yy, yz, _) = vector(), vector()
         half = number()  # tangent of half the disc angle
-        made.append(
+        sample.append(
             NumericPoint(
                 {n: tuple(number() for _ in range(4)) for n in ACCELEROMETER_NUMBERS},
                 vector(),
@@ -67,7 +67,7 @@ def points(count: int, seed: int) -> tuple[NumericPoint, ...]:
                 2 * half / (1 + half**2),
             )
         )
-    return tuple(made)
+    return tuple(sample)
 
 
 _PLACES = ((1, 0), (-1, 0), (0, 1), (0, -1))

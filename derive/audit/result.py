@@ -263,7 +263,7 @@ def audit() -> Audit:
         beyond=tuple(_beyond(full, analytical)),
         neglected=cost({n: simplified.get(n, MODEL_RING.zero) - analytical[n] for n in analytical}),
         simplified_amplitudes=tuple(n for n, p in simplified.items() if p),
-        proved=_proved(analytical, transducer, points),
+        proved=_prove(analytical, transducer, points),
     )
 
 
@@ -279,7 +279,7 @@ def readings(
     return pairs + [(read(e, reader, expand), simplified[amplitude(e.left)]) for e in SIMPLIFIED]
 
 
-def _proved(
+def _prove(
     analytical: Amplitudes, transducer: Mapping[str, PolyElement], points: tuple[direct.NumericPoint, ...]
 ) -> bool:
     outputs = all(direct.output(p) == output(analytical, p) for p in points)

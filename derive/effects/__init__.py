@@ -31,8 +31,8 @@ def catalogue() -> tuple[Effect, ...]:
     """Every packaged effect, by id."""
     names = sorted(m.name for m in pkgutil.iter_modules(__path__))
     modules = [importlib.import_module(f"{__name__}.{n}") for n in names]
-    found = [_effect_of(m, n, inspect.getsource(m)) for m, n in zip(modules, names, strict=True)]
-    return tuple(sorted(found, key=lambda e: e.id))
+    effects = [_effect_of(m, n, inspect.getsource(m)) for m, n in zip(modules, names, strict=True)]
+    return tuple(sorted(effects, key=lambda e: e.id))
 
 
 def of_module(module: ModuleType, text: str) -> Effect:
@@ -76,8 +76,8 @@ def numbers_only(text: str) -> str:
         if _of_derivation(node) or (node is body[0] and isinstance(node, ast.Expr)):
             del lines[node.lineno - 1 : node.end_lineno]
         elif isinstance(node, ast.ImportFrom):
-            own = slice(node.lineno - 1, node.end_lineno)
-            lines[own] = [x.replace("from derive.effects", f"from generated.{FOLDER}") for x in lines[own]]
+            rows = slice(node.lineno - 1, node.end_lineno)
+            lines[rows] = [x.replace("from derive.effects", f"from generated.{FOLDER}") for x in lines[rows]]
     kept = "\n".join(lines).strip()
     return re.sub("\n{4,}", "\n\n\n", kept) + "\n"
 

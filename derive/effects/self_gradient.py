@@ -7,8 +7,8 @@ ATTITUDE = ("roll", "pitch")
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
-    own = (sp.sin(c.channel(angle)) * traceless(p, f"G_{{}}_{angle}") for angle in ATTITUDE)
-    return m._replace(Gamma=sum(own, m.Gamma))
+    gradients = (sp.sin(c.channel(angle)) * traceless(p, f"G_{{}}_{angle}") for angle in ATTITUDE)
+    return m._replace(Gamma=sum(gradients, m.Gamma))
 
 
 EFFECT = Effect(

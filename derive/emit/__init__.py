@@ -35,7 +35,7 @@ def write_form(files: dict[str, str], form: str, *model: Any, **how: Any) -> Non
     """Add what the targets make of a form of a model; no two may write the same file."""
     for t in targets():
         if hasattr(t, form):
-            own = getattr(t, form)(*model, **how)
-            if both := files.keys() & own.keys():
+            additions = getattr(t, form)(*model, **how)
+            if both := files.keys() & additions.keys():
                 raise ValueError(f"two targets write {sorted(both)}")
-            files |= own
+            files |= additions

@@ -295,12 +295,12 @@ def sizes(envelope: Envelope) -> tuple[Size, ...]:
     motions = [bounds[n] for n in MOTION_NUMBERS]
     nominal = [envelope.nominal(n) for n in COEFFICIENT_PARAMETERS]
     scale = 1 / (4 * Fraction(envelope.radius) * EOTVOS)
-    found = []
+    terms = []
     for (n, motion, parameters), c in collect().largest.items():
         left = envelope.departure(parameters) if balanced(n, parameters) else 1
         size = c * product(motions, motion) * product(nominal, parameters) * scale * left
-        found.append(Size(n, motion, parameters, size))
-    return tuple(found)
+        terms.append(Size(n, motion, parameters, size))
+    return tuple(terms)
 
 
 def simplified(envelope: Envelope = PAPER_ENVELOPE) -> Collected:
@@ -317,8 +317,8 @@ def dropped(model: Collected) -> Generic:
     """Series of one accelerometer that the analytical model has and ``model`` has not."""
     difference: dict[tuple[int, str], dict[Powers, PolyElement]] = {}
     for key, terms in collect().generic.items():
-        there = model.generic.get(key, {})
-        left = {m: c - there.get(m, COEFFICIENTS.zero) for m, c in terms.items()}
+        kept = model.generic.get(key, {})
+        left = {m: c - kept.get(m, COEFFICIENTS.zero) for m, c in terms.items()}
         difference[key] = {m: c for m, c in left.items() if c}
     return difference
 

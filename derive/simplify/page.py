@@ -32,8 +32,8 @@ def page() -> str:
 
 
 def _context() -> dict[str, Any]:
-    every = sizes(PAPER_ENVELOPE)
-    kept = [s for s in every if s.eotvos > PAPER_ENVELOPE.allotted]
+    terms = sizes(PAPER_ENVELOPE)
+    kept = [s for s in terms if s.eotvos > PAPER_ENVELOPE.allotted]
     in_dynamic = [s for s in sizes(DYNAMIC_EXPERIMENT) if s.eotvos > DYNAMIC_EXPERIMENT.allotted]
     paper, dynamic = (replace(e, kinematics="full") for e in (PAPER_ENVELOPE, DYNAMIC_EXPERIMENT))
     models = (
@@ -47,9 +47,9 @@ def _context() -> dict[str, Any]:
     return {
         "allotted": number(PAPER_ENVELOPE.allotted),
         "kept": str(len(kept)),
-        "all": str(len(every)),
+        "all": str(len(terms)),
         "smallest": number(min(s.eotvos for s in kept)),
-        "largest": number(max(s.eotvos for s in every if s.eotvos <= PAPER_ENVELOPE.allotted)),
+        "largest": number(max(s.eotvos for s in terms if s.eotvos <= PAPER_ENVELOPE.allotted)),
         "envelope": _bounds(PAPER_ENVELOPE, DYNAMIC_EXPERIMENT),
         "terms": [
             (n, _terms(s for s in kept if s.harmonic == h)) for n, h in (("43", 2), ("45", 1), ("47", 0))

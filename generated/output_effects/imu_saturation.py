@@ -27,12 +27,12 @@ def present(values: Array, valid: NDArray[np.bool_], noise: float) -> bool:
 def clipped(values: Array, valid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(N,): the samples at the end of the sensor's range, if it was reached."""
     usable = valid & np.isfinite(values)
-    found = saturation.clipped(values, usable)
-    below = usable & ~found
+    at_end = saturation.clipped(values, usable)
+    below = usable & ~at_end
     top = saturation.largest(values, below)
     edge = sum(np.count_nonzero(size >= top * (1 - 1e-12)) for _, size in saturation.sizes(values, below))
-    if top == 0.0 or np.count_nonzero(found) < LATTICE * edge:
-        found[:] = False
-    elif np.any(found) and np.min(np.diff(np.unique(values[usable])), initial=top) > top / STEPS:
-        found[:] = False  # few steps, so that a slow motion dwells at the largest
-    return found
+    if top == 0.0 or np.count_nonzero(at_end) < LATTICE * edge:
+        at_end[:] = False
+    elif np.any(at_end) and np.min(np.diff(np.unique(values[usable])), initial=top) > top / STEPS:
+        at_end[:] = False  # few steps, so that a slow motion dwells at the largest
+    return at_end

@@ -20,13 +20,13 @@ from derive.tape import Program
 def harmonic(m: Harmonic) -> dict[str, str]:
     coefficients = [k for _, terms in m.amplitudes for t in terms for k in t.coefficients]
     expressions = list(dict.fromkeys(k.expression for k in coefficients))
-    own = [(k.combination, expressions.index(k.expression), to_c(k.expression)) for k in coefficients]
+    parts = [(k.combination, expressions.index(k.expression), to_c(k.expression)) for k in coefficients]
     number = count()
     lines = [
         (name, [([next(number) for _ in t.coefficients], t.motion) for t in terms])
         for name, terms in m.amplitudes
     ]
-    return _both("harmonic", m.name, m=m, folded=own, expressions=expressions, lines=lines)
+    return _both("harmonic", m.name, m=m, folded=parts, expressions=expressions, lines=lines)
 
 
 def folded(m: Folded) -> dict[str, str]:
@@ -41,16 +41,16 @@ class Turned(Program):
 
     @staticmethod
     def of(program: Program, inputs: Sequence[str]) -> Turned:
-        found = {
+        symbols = {
             f: sp.Symbol(f"{f.func.__name__}_of_{f.args[0]}[i]")
             for _, e in (*program.assignments, *program.outputs)
             for f in e.atoms(sp.cos, sp.sin)
             if str(f.args[0]) in inputs
         }
         return Turned(
-            assignments=tuple((s, e.xreplace(found)) for s, e in program.assignments),
-            outputs=tuple((n, e.xreplace(found)) for n, e in program.outputs),
-            angles=tuple(sorted({str(f.args[0]) for f in found})),
+            assignments=tuple((s, e.xreplace(symbols)) for s, e in program.assignments),
+            outputs=tuple((n, e.xreplace(symbols)) for n, e in program.outputs),
+            angles=tuple(sorted({str(f.args[0]) for f in symbols})),
         )
 
 
@@ -116,19 +116,19 @@ def _polynomials() -> tuple[Sequence[float], Sequence[float]]:
     context = mpmath.mp.clone()
     context.dps = DIGITS
     turn, end = 2 * context.pi, context.mpf(1) / 64
-    known = context.mpf(float(turn))
+    as_float = context.mpf(float(turn))
 
     def sine(z: Any) -> Any:
         r = context.sqrt(z)
-        return context.sin(turn * r) / r - known
+        return context.sin(turn * r) / r - as_float
 
     def cosine(z: Any) -> Any:
         return ((context.cos(turn * context.sqrt(z)) - 1) / z + turn**2 / 2) / z
 
-    def fitted(f: Callable[[Any], Any], terms: int) -> list[float]:
+    def fit(f: Callable[[Any], Any], terms: int) -> list[float]:
         return [float(c) for c in reversed(context.chebyfit(f, [0, end], terms))]
 
-    return fitted(sine, TERMS), [float(-(turn**2) / 2), *fitted(cosine, TERMS - 1)]
+    return fit(sine, TERMS), [float(-(turn**2) / 2), *fit(cosine, TERMS - 1)]
 
 
 def _horner(coefficients: Sequence[float]) -> str:
