@@ -60,8 +60,8 @@ _DIMENSION = "This is a netCDF dimension but not a netCDF variable"
 def make_tables(tree: Tree, place: str = "") -> list[DataTable]:
     """The tables of a tree of arrays and of its branches, from the outermost on.
 
-    A branch with as many rows, and no name in common, is a part of the record around it, unless both have a clock, or that has all of the
-    motion: columns besides it may have no units.
+    A branch with as many rows, and no name in common, is a part of the record around it, unless both have a clock, or the record has all
+    of the motion: columns besides it may have no units.
     """
     arrays, branches = [], {}
     for name, item in tree.items():
@@ -97,8 +97,8 @@ def make_tables(tree: Tree, place: str = "") -> list[DataTable]:
 
 
 def _name_inside(stem: str, c: DataColumn, names: Sequence[str]) -> DataColumn:
-    """A column of a branch that belongs to a record: behind the branch's name, unless its own is the contract's and free. Of a name
-    such as ``omega_x [deg/h]`` HDF5 makes a group.
+    """A column of a branch that belongs to a record: its name follows the branch's, unless it is one of the contract and free. HDF5
+    makes a group of a name such as ``omega_x [deg/h]``.
     """
     if c.name in SI_UNITS and c.name not in names:
         return c

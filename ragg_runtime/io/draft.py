@@ -262,7 +262,7 @@ def _take_roles(columns: Sequence[DataColumn], roles: Roles) -> dict[str, tuple[
 def _take_by_unit(
     columns: Sequence[DataColumn], channels: Mapping[str, Any]
 ) -> dict[str, tuple[DataColumn, Role]]:
-    """Channels that no usual name gives, in any language: the only columns with such a unit, with axes at their ends."""
+    """Channels without a usual name, in any language: the only columns with such a unit, whose names end with an axis."""
     additions: dict[str, tuple[DataColumn, Role]] = {}
 
     def list_alike(name: str) -> list[DataColumn]:

@@ -461,7 +461,7 @@ def name_line(value: object) -> str:
 
 
 def read_quantities(table: DataTable) -> DataTable:
-    """A table whose columns of texts that are all numbers, perhaps with units, are; names of lines (10 N) and instants stay texts."""
+    """A table with columns of texts that are all numbers, perhaps with units, as numbers; names of lines (10 N) and instants stay texts."""
     decimal = table.decimal or find_decimal(c.values for c in table.columns if c.is_text)
     columns = []
     for c in table.columns:

@@ -242,7 +242,7 @@ def _find_unit(time: Array) -> float | None:
 
 
 def _find_even_rate(time: Array, jumps: NDArray[np.int64]) -> float | None:
-    """Hz of even samples whose stamps have gaps as they were rounded, or come in bursts; ``None``: some samples are missing."""
+    """Rate, Hz, of even samples whose stamps have gaps because they were rounded, or come in bursts; ``None``: some samples are missing."""
     if np.sum(jumps > 1) < BESIDE or (np.max(jumps) > 2 and np.sum(jumps) < MOSTLY_GAPS * len(jumps)):
         return None
     rows = np.arange(len(time))
@@ -296,7 +296,7 @@ def find_clock_steps(time: Array, present: NDArray[np.bool_]) -> list[ClockStep]
 
 
 def _find_slews(time: Array, rows: NDArray[np.int64], late: Array, step: float) -> list[ClockStep]:
-    """Stretches in which stamps are ``late``, s, (rows,), by more from row to row, or less, than in most, by ``SET`` steps in all."""
+    """Segments in which ``late`` (rows,), s, by how much stamps are late, changes unlike in most, by ``SET`` steps in all."""
     parts = np.array_split(np.arange(len(rows)), SLEW_PARTS)
     if len(parts[-1]) < BESIDE:
         return []

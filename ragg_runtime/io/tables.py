@@ -134,7 +134,7 @@ class DataTable:
 
 
 def read_heading(text: str) -> tuple[str, str]:
-    """Name and unit of ``name [unit]``, or of another way in which what should be the unit is one (see above)."""
+    """Name and unit of ``name [unit]``, or of another form (see above), if what stands for the unit is one."""
     text = " ".join(text.split())
     if text.startswith("/'"):  # LabVIEW: /'group'/'name (unit)'
         text = re.sub(r"([\[(][^\[\]()]+[\])])'$", r"'\1", text)
@@ -225,7 +225,7 @@ def find_decimal(columns: Iterable[Any]) -> str:
 
 def parse_quantities(texts: Iterable[str], decimal: str = "") -> tuple[Array, str, Mask]:
     """Numbers (n,) of n cells, perhaps with units (``0.12 m/s2``), NaN where there is none; the unit, that of the first; and the cells
-    (n,) that are neither such numbers nor say that nothing is there. ``decimal``: their mark; ``""``: they tell it themselves.
+    (n,) that are neither such numbers nor marks of missing ones. ``decimal``: their mark; ``""``: they tell it themselves.
     """
     texts = [*texts]
     decimal = decimal or find_decimal([texts])

@@ -2,8 +2,8 @@
 
 One linear fit about the test sheet, with every parameter's prior, robust against outliers, the size of the
 residual being the only thing unknown. It costs milliseconds; it is no calibration. The number is minus the log
-evidence of the fit (D. MacKay, Neural Computation 4, 1992, 415), so that whatever may be wrong with a record, a unit,
-an axis, a clock or the sheet itself, competes by the same. Rows are taken as they are or with a mistake undone.
+evidence of the fit (D. MacKay, Neural Computation 4, 1992, 415): all that may be wrong with a record, a unit, an axis, a
+clock or the sheet itself, is compared by it. Rows are taken as they are or with a mistake undone.
 """
 
 from __future__ import annotations
@@ -66,8 +66,8 @@ class Rows:
         nothing = np.zeros(len(self.time))
         return np.array([self.channels.get(name, nothing) for name in self.sampler.model.chain.INPUTS])
 
-    def seen(self, raw: Array) -> Array:
-        """(..., m, n): what the recorded output sees of what it is before demodulation."""
+    def observe(self, raw: Array) -> Array:
+        """(..., m, n): an output as it is recorded, from what it is before demodulation."""
         if not self.sampler.recorded.demodulated:
             return raw
         carriers = 2 * np.stack([np.sin(2 * self.phi), np.cos(2 * self.phi)])
@@ -310,8 +310,8 @@ def list_columns(s: Sampler) -> list[tuple[Column, int]]:
 
 
 def linearise(rows: Rows) -> tuple[Array, Array]:
-    """The output by every parameter, times the width of its prior, and by a gradient that was not recorded, (n, m, rows), and the
-    output less the model at the sheet's values, (m, rows), Eo, of those of the rows that are fitted.
+    """Derivatives of the output by every parameter, times the width of its prior, and by a gradient that was not recorded,
+    (n, m, rows); and the residual at the sheet's values, (m, rows); Eo, at those of the rows that are fitted.
     """
     s, p = rows.sampler, make_vector(rows.sampler.model, rows.sampler.instrument)
     nominal, parameters = rows.predict(p), [c for c, _ in list_columns(s)]
@@ -320,7 +320,7 @@ def linearise(rows: Rows) -> tuple[Array, Array]:
     put_derivatives(columns, s.model.chain, parameters, where, p, s.recorded, s.output)
     eotvos = scale_factor(s.model, p, s.place)
     gradient = () if rows.gradient_recorded else (_make_gradient(rows),)
-    X, y = rows.seen(np.concatenate([columns / eotvos, *gradient])), rows.data - rows.seen(nominal)
+    X, y = rows.observe(np.concatenate([columns / eotvos, *gradient])), rows.data - rows.observe(nominal)
     return X[..., rows.inner], y[:, rows.inner] / eotvos
 
 
@@ -333,7 +333,7 @@ def _make_gradient(rows: Rows) -> Array:
 
 
 def find_least(cost: Callable[[float], float], grid: NDArray[np.floating[Any]], finest: float) -> float:
-    """Where a cost is least: on an even grid, then beside the best, at half the distance each time, until that is ``finest``."""
+    """Where a cost is least: on an even grid, then beside the best, at half the distance each time, down to ``finest``."""
     tried, step = {float(x): cost(float(x)) for x in grid}, float(grid[1] - grid[0])
     best = min(tried, key=tried.__getitem__)
     while step > finest:
@@ -344,7 +344,7 @@ def find_least(cost: Callable[[float], float], grid: NDArray[np.floating[Any]], 
 
 
 def find_inliers(residual: Array) -> NDArray[np.bool_]:
-    """Which of the moduli of some residuals, (..., rows), are no outliers."""
+    """Which residuals are no outliers, by their moduli, (..., rows)."""
     return np.asarray(residual <= OUTLIER * float(np.quantile(residual, QUARTILE)) / QUARTILE_OF_NORMAL)
 
 

@@ -192,7 +192,7 @@ _UNITS = {
 
 
 def _list_units(rows: Rows, columns: str, first: str, quantity: str) -> Iterator[tuple[str, str, float]]:
-    """What, remedy and factor of other units that may be meant than that which the file gives to the ``first`` of some columns."""
+    """What, remedy and factor of every unit that columns may have instead of that which the file gives to the ``first`` of them."""
     units, possible = rows.sampler.instrument.units, _UNITS[quantity]
     file_unit = rows.sampler.flight.written.get(first, possible[0])
     size, factors = float(units.to_si(1.0, file_unit, possible[0])), [1.0]
@@ -335,8 +335,8 @@ def _propose_demodulator(s: Sampler) -> Hypothesis:
 
 
 def list_low_passes() -> Iterator[tuple[Callable[[float], Demodulation], int]]:
-    """Every kind of low-pass, by its corner, Hz, and how many corners are tried first; a causal one also with what it delays slow things
-    by taken back.
+    """Every kind of low-pass, by its corner, Hz, and how many corners are tried first; a causal one also with the delay of
+    slow signals taken back.
     """
     for n in ORDERS:
         slow = 1.0 / (2 * np.pi * np.sin(np.pi / (2 * n)))

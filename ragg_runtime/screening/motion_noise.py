@@ -39,7 +39,7 @@ FALLS = 0.99
 two sigma."""
 
 NOTICED = float(np.sqrt(1.0 - FALLS**2))  # share of the residual that noise must make for that
-TOLD = 0.01  # per cent by which coefficients would be too small from which that is told
+NOTED = 0.01  # per cent by which coefficients would be too small, from which that is noted
 # factor by which the residual falls from which noise of a recorded gradient is most of it: what smoothing leaves of that is seen
 MOSTLY = 0.5
 # samples of a window of the spectrum, and bands whose mean densities are compared: the least is the floor
@@ -70,7 +70,7 @@ class MotionNoise:
 
 
 def measure_noise(x: Array, present: Mask) -> MotionNoise:
-    """What the steps of a converter make of a column (N,), or the floor of its spectrum, if it has a flat one, whichever is more.
+    """The noise of a column (N,): that of its converter's steps or of the flat floor of its spectrum, if it has one, whichever is more.
 
     The floor is an upper bound, as motion may have one, too.
     """
@@ -216,6 +216,6 @@ def _describe(s: Sampler, noise: Mapping[str, MotionNoise], before: float, after
         min(1.0, n.std**2 / max(float(np.var(x.channels[c][x.valid])), 1e-300)) for c, n in noise.items()
     )
     text = f"{', '.join(noise)} {what}: the noise is smoothed, and the model leaves {after:.3g} instead of {before:.3g} Eo"
-    if weaker > TOLD and not gradient:  # which hardly varies
+    if weaker > NOTED and not gradient:  # which hardly varies
         text += f" (with it coefficients would be up to {weaker:.2g} % too small)"
     return Flag(tuple(noise), text, kind="motion-noise")

@@ -122,7 +122,7 @@ def leave_out_glitches(flight: Flight) -> Flight:
 def change_columns(
     flight: Flight, columns: Mapping[str, Array], valid: Mask | None = None, lost: Mask | None = None
 ) -> Flight:
-    """The flight with other columns, and valid samples (N,); where rates are others, some ``lost`` (N,), with what is derived of them."""
+    """The flight with other columns, and other valid samples (N,); of other rates, some of them ``lost`` (N,), the acceleration follows."""
     changed = replace(
         flight,
         outputs={n: columns.get(n, x) for n, x in flight.outputs.items()},
@@ -164,7 +164,7 @@ def find_spikes_of_slow(x: Array) -> tuple[Mask, Array]:
 
 
 def find_lost_angles(angle: Array, valid: Mask) -> tuple[Mask, Array]:
-    """The same of the angle of a disc (N,), rad: what is off an even turn, which no turn of the whole hides."""
+    """The same of the angle of a disc (N,), rad: what is off an even rotation, whole turns apart."""
     pairs = valid[1:] & valid[:-1]
     if not pairs.any():
         return np.zeros_like(valid), angle
@@ -389,9 +389,9 @@ def _find_joined(x: Array, present: Mask) -> _Repeated | None:
 def _find_stuck(x: Array, present: Mask, equal: Mask, step: float, turning: bool) -> Mask:
     """(N,): samples in runs of equal values that are too long for how often the column repeats a value elsewhere.
 
-    The chance that two neighbours are equal is counted in the pairs before and after a run, as many as it has; or it is the resolution
-    over the usual move thereabouts, whichever makes a run less likely, as few pairs cannot tell how small a chance is. Runs that a
-    column enters and leaves by a ``step`` or two of its resolution are where it turns; those at an end of its range are saturation, an
+    The chance that two neighbours are equal is counted in as many pairs before and after a run as it has; or it is the resolution
+    over the usual move there, whichever is smaller, as few pairs cannot tell how small a chance is. Runs that a column enters
+    and leaves by a ``step`` or two of its resolution are where it turns; those at an end of its range are saturation, an
     effect of its own, unless the column leaps there.
     """
     stuck = np.zeros(len(x), dtype=np.bool_)
@@ -456,7 +456,7 @@ def _find_lost(x: Array, present: Mask, stuck: Mask) -> Mask:
 
 
 def _find_usual_moves(moves: Array, present: Mask) -> Array:
-    """(N,): the least median of moves (N - 1,), but those of readings that are held, in a sample's own block and the two beside it."""
+    """(N,): the least of the median moves, other than 0, in a sample's own block and the two beside it; ``moves`` (N - 1,)."""
     size = min(LOCAL, len(moves))
     pairs = present[1:] & present[:-1]
     moving = pd.Series(np.where(pairs & (moves > 0.0), moves, np.nan))
@@ -467,7 +467,7 @@ def _find_usual_moves(moves: Array, present: Mask) -> Array:
 
 
 def _make_flags(repeated: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]:
-    """One flag for all columns of which the same is to be said."""
+    """One flag for all columns with the same text."""
     derived = ANGULAR_ACCELERATION[0] not in flight.written
     groups: dict[str, list[str]] = {}
     lacks: set[str] = set()

@@ -56,7 +56,7 @@ SAME_SPIN = 2e-3
 
 MOTION = (*SPECIFIC_FORCE, *ANGULAR_RATE)
 
-# what is said of a record in which nothing moves
+# the flag of a record in which nothing moves
 AT_REST = "the motion does not change: a record at rest determines little of an instrument, and does not suffice to find an effect"
 
 
@@ -226,7 +226,7 @@ Mask = NDArray[np.bool_]
 
 # factor by which the residual falls once a mistake is undone, from which going on is senseless
 SENSELESS = 20.0
-# factor from which what the model leaves is told as smaller; below, the parameters' nearness to the sheet spoke for the mistake
+# factor from which the residual is reported as smaller; below it the parameters' nearness to the sheet decided for the mistake
 HALVED = 2.0
 # gain in log evidence from which a clock was set and sampling did not pause (docs/contributors/decisions.md)
 CLOCK = INDEPENDENT * float(np.log(1.3))
@@ -383,7 +383,7 @@ def _count_times(x: Flight, steps: Sequence[ClockStep], first: float, step: floa
 
 
 def _leave_out_output_spikes(s: Sampler) -> Flight:
-    """The flight without the spikes of an output, found in what the fitted model leaves; saturated samples are said."""
+    """The flight without the spikes of an output, found in what the fitted model leaves; saturated samples are reported."""
     x, name, flags = s.flight, s.output.name, []
     present = x.valid & np.isfinite(x.outputs[s.columns[0]])
     clipped = int(np.count_nonzero(present & ~s.usable))

@@ -186,7 +186,7 @@ def _propose_losses(s: Sampler) -> list[Hypothesis]:
     """Rows are missing all along, or doubled, while the stamps go on evenly: the disc runs ahead of them, or behind.
 
     Its angle is followed by the phase of the output at the spin rate against that of the specific force in its plane, which differ by
-    a constant; what runs one way only is taken of it.
+    a constant; of that the best fit that runs one way only is taken.
     """
     f, rate = s.disc.spin_frequency, s.flight.rate
     turn = max(1, round(rate / abs(f)))
@@ -216,14 +216,14 @@ def _propose_losses(s: Sampler) -> list[Hypothesis]:
 
 
 def propose_parts(s: Sampler) -> list[Hypothesis]:
-    """What lies between two instants is of another record: of it the model leaves more than of effects, the rest it explains without it."""
+    """Another record lies between two instants: the model leaves more of it than effects would, and explains the rest without it."""
     rows, n = s.rows(most=PART_ROWS), len(s.flight)
     sample = s.take(rows)
     X, y = (x.reshape(*x.shape[:-2], -1) for x in linearise(sample))
     positions, size = np.tile(rows, len(sample.data)), fit_rows(sample).size
 
     def judge(first: float, last: float) -> tuple[float, float]:
-        """The mean misfit, of the part that of a model that predicts nothing; and rms of what is left of the part, over the output."""
+        """The mean misfit, 0 within the part, as of a model that predicts nothing; and the residual of the part over the output, rms."""
         inside = (positions >= first) & (positions < last)
         if not inside.any():
             return np.inf, 0.0
@@ -271,7 +271,7 @@ class _Late:
         return {"motion_later": k, "of": self.of} if self.of else {"output_later": -k}
 
     def reach(self, lags: Collection[int], samples: int) -> int:
-        """Samples at either end of a record without which every lag is within it; against the disc a loss there is a phase."""
+        """Samples to leave out at either end, for every lag to stay within the record; against the disc a loss there is a phase."""
         return samples // 100 if self is _RECORD else max(map(abs, lags))
 
     def describe(self, k: int, rate: float) -> str:
@@ -373,7 +373,7 @@ def _describe_losses(s: Sampler, slips: Sequence[tuple[float, int, int]]) -> tup
 
 
 def _find_lag(s: Sampler, rows: Index, lags: Sequence[int], x: _Late) -> int:
-    """The lag, of some and from the best of these on while less is left, with which the model leaves least of some rows."""
+    """The lag with which the model leaves least of some rows: the best of ``lags``, or of those beside it as long as they leave less."""
     misfits: dict[int, float] = {}
     untried = [*lags]
     while untried and len(misfits) < MOST_SHIFTS:
@@ -386,7 +386,7 @@ def _find_lag(s: Sampler, rows: Index, lags: Sequence[int], x: _Late) -> int:
 def _follow_lags(
     s: Sampler, rows: Index, lags: Sequence[int], x: _Late, late: Index | None = None
 ) -> Iterator[Index]:
-    """By how many samples, (rows,) of ``lags`` each, some columns are late all along: by the model as fitted with the lags known so far;
+    """The lag of some columns at every row, (rows,), each one of ``lags``: by the model as fitted with those known so far (``late``);
     else as fitted to the first third as it is, and to the last third with the lag that suits it best.
     """
     systems = [linearise(s.take(rows, **x.options(s, np.full(len(rows), k)))) for k in lags]
@@ -413,8 +413,8 @@ def _fit_segment(X: Array, y: Array, end: slice) -> tuple[Array, float]:
 
 
 def find_path(costs: Array, switch: float) -> Index:
-    """(N,): which of K states of costs (K, N) is followed at least cost where every change costs so much (A. Viterbi, IEEE Trans.
-    Inf. Theory 13, 1967, 260).
+    """(N,): the path of least cost through K states of costs (K, N), each change at a cost (A. Viterbi, IEEE Trans. Inf. Theory 13,
+    1967, 260).
     """
     total, came = costs[:, 0], np.zeros(costs.T.shape, dtype=np.intp)
     for k in range(1, costs.shape[1]):
