@@ -67,7 +67,7 @@ class Regression:
             ) / c.scale
         absent[shapes] = 0.0  # of what is not there any shape will do
         return Regression(
-            flights=tuple(tuple(t[:, picked] for t in own) for own in f.r_factors),
+            flights=tuple(tuple(t[:, picked] for t in factors) for factors in f.r_factors),
             centre=np.concatenate([f.to_nominal, np.zeros(len(extra))]),
             absent=np.concatenate([absent, np.zeros(len(extra))]),
             effects=tuple([c.effect for c in columns] + [f.candidates[k].effect for k in extra]),
@@ -77,25 +77,25 @@ class Regression:
     def columns(self, effect: str) -> list[int]:
         return [k for k, e in enumerate(self.effects) if e == effect]
 
-    def blocks(self, some: Sequence[int] | None = None) -> list[Array]:
+    def blocks(self, only: Sequence[int] | None = None) -> list[Array]:
         """R factors of the blocks, or of some of each flight, that hold any sample."""
         return [
-            t for own in self.flights for b, t in enumerate(own) if (some is None or b in some) and np.any(t)
+            t for ts in self.flights for b, t in enumerate(ts) if (only is None or b in only) and np.any(t)
         ]
 
-    def log_evidence(self, some: Sequence[int] | None = None, without: Sequence[int] = ()) -> float:
+    def log_evidence(self, only: Sequence[int] | None = None, without: Sequence[int] = ()) -> float:
         """Of some blocks, but for a constant of these: log of the Gaussian integral over the coefficients that are fitted."""
-        R = self._factor(some, without)
+        R = self._factor(only, without)
         k = len(self.centre) - len(without)
         return -0.5 * float(np.sum(R[k:, k] ** 2)) - float(np.sum(np.log(np.abs(np.diag(R)[:k]))))
 
-    def _factor(self, some: Sequence[int] | None, without: Sequence[int]) -> Array:
+    def _factor(self, only: Sequence[int] | None, without: Sequence[int]) -> Array:
         """The R factor of [the columns that are fitted | data], the prior in it."""
         n = len(self.centre)
         kept = [k for k in range(n) if k not in without]
         fixed = np.zeros(n)
         fixed[list(without)] = self.absent[list(without)]
-        rows = [np.column_stack([t[:, kept], t[:, -1] - t[:, :n] @ fixed]) for t in self.blocks(some)]
+        rows = [np.column_stack([t[:, kept], t[:, -1] - t[:, :n] @ fixed]) for t in self.blocks(only)]
         sheet = np.column_stack([np.eye(len(kept)), self.centre[kept]])
         return np.asarray(np.linalg.qr(np.vstack([*rows, sheet]), mode="r"))
 
@@ -134,16 +134,16 @@ class Regression:
     def significance(self, effect: str) -> Significance:
         """Of an effect fitted jointly with all others, by its columns that are at rest where it is absent."""
         E, C = [k for k in self.columns(effect) if k not in self.shapes], self.covariance
-        own = np.ix_(E, E)
-        sizes, U = np.linalg.eigh(C[own])
-        told = sizes < SEEN
-        U, sizes = U[:, told], sizes[told]
+        submatrix = np.ix_(E, E)
+        sizes, U = np.linalg.eigh(C[submatrix])
+        determined = sizes < SEEN
+        U, sizes = U[:, determined], sizes[determined]
         # of a value that is not there: the prior, which does not scatter, holds it back
         spread = sizes * (1.0 - sizes)
         y = U.T @ (self.value[E] - self.absent[E])
         along = U @ (y / spread)
         expected = float(np.sum(y**2 / spread))
-        by = float(along @ self.sandwich[own] @ along) / expected if expected > 0.0 else 1.0
+        by = float(along @ self.sandwich[submatrix] @ along) / expected if expected > 0.0 else 1.0
         direction, blocks = C[:, E] @ along, self.blocks()
         carried = np.array([np.sum((t[:, :-1] @ direction) ** 2) for t in blocks])
         carriers = float(np.sum(carried) ** 2 / np.sum(carried**2)) if expected > 0.0 else 1.0
@@ -187,8 +187,8 @@ def weigh_held_out(x: Regression, effect: str) -> float:
     That is what its log evidence gains from them: of an effect that the others do not determine nothing is held against it.
     """
     E = x.columns(effect)
-    every, fitted = (x.log_evidence(some) - x.log_evidence(some, E) for some in (None, FITTED_BLOCKS))
-    return every - fitted
+    whole, fitted = (x.log_evidence(blocks) - x.log_evidence(blocks, E) for blocks in (None, FITTED_BLOCKS))
+    return whole - fitted
 
 
 def weigh_generic_terms(
@@ -199,9 +199,9 @@ def weigh_generic_terms(
     ``bases`` are searches for terms of several kinds. Terms that explain hardly more than what is ``claimed`` are taken to explain as much:
     their chi-squares are those of a periodic filter. ``spread``: variance of their scores.
     """
-    found = [sum(max([0.0, *_weigh_terms(s, claimed, most, spread)]) for s in b.searches) for b in bases]
-    best = int(np.argmax(found))
-    return found[best] - float(np.log(len(bases))), bases[best]
+    gains = [sum(max([0.0, *_weigh_terms(s, claimed, most, spread)]) for s in b.searches) for b in bases]
+    best = int(np.argmax(gains))
+    return gains[best] - float(np.log(len(bases))), bases[best]
 
 
 # share by which second orders, and the filter that generic terms pass, may change what an explanation explains
@@ -236,13 +236,13 @@ def estimate_covariance(
     n = len(x.value)
     at = {label: k for k, label in enumerate(columns)}
     places = [at[label] for label in projected if label in at]
-    known = [k for k, label in enumerate(projected) if label in at]
+    picked = [k for k, label in enumerate(projected) if label in at]
     moved = np.zeros(n)
-    for own, s in zip(x.flights, left.searches, strict=True):
+    for factors, s in zip(x.flights, left.searches, strict=True):
         if s.shift is not None:
             full = np.zeros(n)
-            full[places] = s.shift[known]
-            moved += sum((t[:, :n].T @ (t[:, :n] @ full) for t in own), np.zeros(n))
+            full[places] = s.shift[picked]
+            moved += sum((t[:, :n].T @ (t[:, :n] @ full) for t in factors), np.zeros(n))
     C = x.covariance
     V = x.sandwich + C @ C  # with what the prior leaves open: its rows are those of unit
     wider = np.sqrt(np.maximum(1.0, np.diag(C) / np.maximum(np.diag(V), 1e-300)))

@@ -202,10 +202,10 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
         # Whitened least squares may leave more of the noise that it counts little; plain ones cannot.
         f = fit(model, instrument, observations, f.calibration.noise, unweighted=True)
         calibrated, half, nominal = score_with_nominal(f, [np.zeros(f.size), f.fit_held_out()])
-    made = conclude(f, nominal.whole, calibrated, half.held_out)
+    result = conclude(f, nominal.whole, calibrated, half.held_out)
     still = tuple(q.reason for x in flights for q in x.flags if q.kind == "still")
     # an output that exceeds stationary noise, where motion was not recorded, is not explained
-    return replace(made, grounds=still) if made.adequate and made.remark and still else made
+    return replace(result, grounds=still) if result.adequate and result.remark and still else result
 
 
 def score_with_nominal(f: Fitted, vectors: Sequence[Array]) -> list[Scored]:
@@ -234,12 +234,12 @@ def exceeds_noise(f: Fitted, scored: Scored, noise: float) -> bool:
 
 def describe_disturbance(f: Fitted) -> str | None:
     """Which lines and jumps the record holds, and how its noise changes its level, in words."""
-    said = [
+    texts = [
         x.noise.disturbed if len(f.prepared) == 1 else f"{x.observation.name}: {x.noise.disturbed}"
         for x in f.prepared
         if x.noise.disturbed is not None
     ]
-    return "; ".join(said) or None
+    return "; ".join(texts) or None
 
 
 def compute_residuals(f: Fitted, p: Array) -> list[Array]:
@@ -331,15 +331,15 @@ class Together:
 
     def differences(self) -> list[dict[str, object]]:
         """Complements on one disc: what differs between them is noise, half of its variance of each."""
-        outputs, found = [self.layout.outputs[n] for n in self.places], list[dict[str, object]]()
+        outputs, rows = [self.layout.outputs[n] for n in self.places], list[dict[str, object]]()
         for a, b in combinations(range(len(outputs)), 2):
             if outputs[a].disc == outputs[b].disc and self.seen.size:
                 z = (self.seen[a] - self.seen[b]) / np.sqrt(2)
                 expected = float(np.hypot(self.std[a], self.std[b]) / np.sqrt(2))
-                own = {"inline_Eo": float(np.std(z.real)), "cross_Eo": float(np.std(z.imag))}
-                foreseen = {"expected_inline_Eo": 2 * expected, "expected_cross_Eo": expected}
-                found.append({"outputs": [outputs[a].name, outputs[b].name], **own, **foreseen})
-        return found
+                spreads = {"inline_Eo": float(np.std(z.real)), "cross_Eo": float(np.std(z.imag))}
+                predictions = {"expected_inline_Eo": 2 * expected, "expected_cross_Eo": expected}
+                rows.append({"outputs": [outputs[a].name, outputs[b].name], **spreads, **predictions})
+        return rows
 
     def as_json(self) -> dict[str, object]:
         figures: dict[str, object] = {"flight": self.name, "noise_between_complements": self.differences()}
@@ -355,20 +355,20 @@ class Together:
 
 def compare_outputs(f: Fitted) -> list[Together]:
     """Of every flight with several turning outputs what they saw."""
-    found = []
+    groups = []
     for first, last in pairwise([*f.first, len(f.observations)]):
-        every = (
+        estimates = (
             (n, *_estimate_gradient(f, n)) for n in range(first, last) if f.observations[n].record.turning
         )
-        own = [(n, g, std) for n, g, std in every if np.isfinite(g).any()]
-        if len(own) > 1:
-            seen = np.array([g for _, g, _ in own])
-            places = tuple(f.observations[n].place for n, *_ in own)
-            std = np.array([std for *_, std in own])
-            there, o = np.isfinite(seen).all(axis=0), f.observations[first]
-            time, layout = o.record.time[there], f.instrument.layout
-            found.append(Together(o.flight_name, layout, places, time, seen[:, there], std))
-    return found
+        finite = [(n, g, std) for n, g, std in estimates if np.isfinite(g).any()]
+        if len(finite) > 1:
+            gradients = np.array([g for _, g, _ in finite])
+            places = tuple(f.observations[n].place for n, *_ in finite)
+            std = np.array([std for *_, std in finite])
+            present, o = np.isfinite(gradients).all(axis=0), f.observations[first]
+            time, layout = o.record.time[present], f.instrument.layout
+            groups.append(Together(o.flight_name, layout, places, time, gradients[:, present], std))
+    return groups
 
 
 def _estimate_gradient(f: Fitted, n: int) -> tuple[NDArray[np.complex128], float]:
@@ -378,6 +378,6 @@ def _estimate_gradient(f: Fitted, n: int) -> tuple[NDArray[np.complex128], float
     o, p, r = f.observations[n], f.calibration.p, f.observations[n].record
     d = find_demodulator("fir", r.rate)
     g = ModelledOutput(f.model, o, p, (Block(slice(0, len(r.time)), p),), d).estimate_gradient()
-    there = find_whole(np.ones_like(r.valid), r.valid, d)
+    present = find_whole(np.ones_like(r.valid), r.valid, d)
     std = float(np.sqrt(d.pass_power(f.prepared[n].noise_psd, 2 * abs(r.spin_frequency)))) / f.scales[n]
-    return np.where(there, g, np.nan), std
+    return np.where(present, g, np.nan), std

@@ -42,10 +42,10 @@ def are_far_apart(first: Stage) -> bool:
     all of them, or of any; ``first`` is the stage without effects.
     """
     f = first.fitted
-    problems = [first.problem, *(_make_own_problem(f, own) for own in _group_by_flight(f).values())]
+    problems = [first.problem, *(_make_flight_problem(f, places) for places in _group_by_flight(f).values())]
     chosen = {*first.chosen, *(e for x in problems[1:] for e in choose(x))}
     together, *alone = (
-        x.chi2 - x.joint([[n for n, _ in own] for e, own in x.candidates.items() if e in chosen])[0]
+        x.chi2 - x.joint([[n for n, _ in columns] for e, columns in x.candidates.items() if e in chosen])[0]
         for x in problems
     )
     return together > QUIET * max(sum(alone), f.calibration.rows)
@@ -55,8 +55,8 @@ def find_disagreement(first: Stage, extend: Extend | None) -> tuple[Disagreement
     """The flights that agree, and what these lack; nothing where all do."""
     f = first.fitted
     groups: list[_Group] = []
-    for own in _group_by_flight(f).values():
-        one = _Group.of(fit(f.model, f.instrument, [f.observations[n] for n in own]), extend)
+    for places in _group_by_flight(f).values():
+        one = _Group.of(fit(f.model, f.instrument, [f.observations[n] for n in places]), extend)
         joined = ((n, g.join(one, extend)) for n, g in enumerate(groups))
         n, group = next(((n, g) for n, g in joined if g is not None), (len(groups), one))
         groups[n : n + 1] = [group]
@@ -84,9 +84,9 @@ class _Group:
     @staticmethod
     def of(f: Fitted, extend: Extend | None) -> _Group:
         """One flight by itself."""
-        found = Conclusion.of(search(Stage.of(f), extend, apart=False), (), apart=False)
-        c = found.outcome.target.calibration
-        return _Group(f.observations, found.claims, c.noise, c.excess * c.rows, c.rows, not found.remains, f)
+        alone = Conclusion.of(search(Stage.of(f), extend, apart=False), (), apart=False)
+        c = alone.outcome.target.calibration
+        return _Group(f.observations, alone.claims, c.noise, c.excess * c.rows, c.rows, not alone.remains, f)
 
     def join(self, other: _Group, extend: Extend | None) -> _Group | None:
         """Both, unless one set of parameters explains them plainly worse; where more than noise is left of each, far worse."""
@@ -94,8 +94,8 @@ class _Group:
         kinds = {e.id: e.kind for e in f.model.candidates}
         if effects and (extend is None or any(kinds[e] == "step" for e in effects)):
             return None  # a step has an instant in one flight only
-        own = [e for e in effects if kinds[e] == "deterministic"]
-        model, sheet = derive_with(f, own, {}, extend) if own and extend else (f.model, f.instrument)
+        ids = [e for e in effects if kinds[e] == "deterministic"]
+        model, sheet = derive_with(f, ids, {}, extend) if ids and extend else (f.model, f.instrument)
         observations, noise = (*self.observations, *other.observations), (*self.noise, *other.noise)
         c = calibrate(model, sheet, observations, noise=noise)[1]
         alone, together = self.chi2 + other.chi2, c.excess * c.rows
@@ -114,16 +114,16 @@ def _group_by_flight(f: Fitted) -> dict[int, list[int]]:
     return flights
 
 
-def _make_own_problem(f: Fitted, own: Sequence[int]) -> ProjectedProblem:
+def _make_flight_problem(f: Fitted, places: Sequence[int]) -> ProjectedProblem:
     """The problem of one flight, whose observations have these places."""
-    noise = tuple(f.calibration.noise[n] for n in own)
-    some = replace(
+    noise = tuple(f.calibration.noise[n] for n in places)
+    single = replace(
         f,
-        observations=tuple(f.observations[n] for n in own),
+        observations=tuple(f.observations[n] for n in places),
         calibration=replace(f.calibration, noise=noise),
-        r_factors=tuple(f.r_factors[n] for n in own),
+        r_factors=tuple(f.r_factors[n] for n in places),
     )
-    return make_problem(some)
+    return make_problem(single)
 
 
 # --- from block to block of time
@@ -166,8 +166,8 @@ def _compute_innovations(f: Fitted) -> Iterator[tuple[ChangePoint, Array, Array]
     """Where each block of time begins, and its innovations along the base columns, and along candidates beyond them."""
     n = f.n_base
     nothing = np.zeros((n + 1, n + 1))
-    known = add_prior(nothing, range(n), f.to_nominal / WIDE)
-    known[:, :n] /= WIDE  # it holds the prior's rows alone: WIDE times as wide
+    prior = add_prior(nothing, range(n), f.to_nominal / WIDE)
+    prior[:, :n] /= WIDE  # it holds the prior's rows alone: WIDE times as wide
     for x, r_factors in zip(f.prepared, f.r_factors, strict=True):
         r = x.observation.record
         for T, (first, last) in zip(r_factors, pairwise(x.edges), strict=True):
@@ -176,18 +176,18 @@ def _compute_innovations(f: Fitted) -> Iterator[tuple[ChangePoint, Array, Array]
                 continue
             free = max(0, samples - T.shape[1])
             level = float(np.sqrt((T[-1, -1] ** 2 + KNOWN) / (free + KNOWN)))
-            own = np.column_stack([T[:n, :n], T[:n, -1]]) / level
-            base = _standardise(known, own)
-            known = compute_r_factor(np.vstack([known, own]).T)
+            block = np.column_stack([T[:n, :n], T[:n, -1]]) / level
+            base = _standardise(prior, block)
+            prior = compute_r_factor(np.vstack([prior, block]).T)
             further = T[n:-1, -1][np.diag(T)[n:-1] != 0.0] / level
             yield ChangePoint(x.observation.name, float(r.time[first])), base, further
 
 
-def _standardise(known: Array, own: Array) -> Array:
+def _standardise(prior: Array, block: Array) -> Array:
     """(n,): what a block's rotated data differ by from what is known, standardised by both uncertainties."""
-    n = own.shape[1] - 1
-    S = known[:n, :n]
-    expected = solve_triangular(S, known[:n, n])
-    V = solve_triangular(S, own[:, :n].T, trans="T")
-    R = np.linalg.qr(np.vstack([np.eye(len(own)), V]), mode="r")  # R'R = 1 + V'V, without squaring V
-    return np.asarray(solve_triangular(R, own[:, n] - own[:, :n] @ expected, trans="T"))
+    n = block.shape[1] - 1
+    S = prior[:n, :n]
+    expected = solve_triangular(S, prior[:n, n])
+    V = solve_triangular(S, block[:, :n].T, trans="T")
+    R = np.linalg.qr(np.vstack([np.eye(len(block)), V]), mode="r")  # R'R = 1 + V'V, without squaring V
+    return np.asarray(solve_triangular(R, block[:, n] - block[:, :n] @ expected, trans="T"))

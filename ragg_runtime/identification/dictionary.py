@@ -117,8 +117,8 @@ class Dictionary:
         rates = [n for n in _RATES if n.partition("_")[2] in r.wide]
         names = [*(n for n in MOTION if n in r.wide), *centred, "time", *rates, *(f"d_{n}" for n in centred)]
         further = [c for c in list_generic([*centred, "time"]) if all(is_recorded(n, r) for n in c)]
-        made = dict.fromkeys(n for c in further for n in c if n not in names)
-        self._size = self._measure([*names, *made, *self._of_output])
+        functions = dict.fromkeys(n for c in further for n in c if n not in names)
+        self._size = self._measure([*names, *functions, *self._of_output])
         names = [n for n in names if n in self._size]
         motion = [n for n in names if n in MOTION]
         other = [n for n in names if n not in MOTION]
@@ -133,8 +133,8 @@ class Dictionary:
         alone = [Term(h, c) for c in products if len(c) <= 1 for h in of_one]
         alone += [Term("const", (f,)) for f in FORCES if f in self._size]
         several = [Term(h, c) for c in products if len(c) > 1 for h in of_several]
-        made_of = [c for c in (*further, *OF_OUTPUT) if all(n in self._size for n in c)]
-        self.terms: tuple[Term, ...] = (*alone, *several, *(Term("const", c) for c in made_of))
+        generic = [c for c in (*further, *OF_OUTPUT) if all(n in self._size for n in c)]
+        self.terms: tuple[Term, ...] = (*alone, *several, *(Term("const", c) for c in generic))
         self.first_order = len(alone)
         """Constants, single channels and turning forces: so many of the terms, the first."""
         self.channels = tuple(n for n in names if n in MOTION or n in self.centre)
@@ -142,21 +142,21 @@ class Dictionary:
 
     def with_terms(self, terms: Sequence[Term]) -> Dictionary:
         """The same of other terms, which may be of further functions: of auxiliary channels less their means."""
-        made = copy(self)
+        dictionary = copy(self)
         names = dict.fromkeys(n for t in terms for n in t.channels if n not in self._size)
-        made._size = self._size | self._measure([*names])
-        made.terms = tuple(t for t in terms if all(n in made._size for n in t.channels))
-        made.first_order = 0
-        return made
+        dictionary._size = self._size | self._measure([*names])
+        dictionary.terms = tuple(t for t in terms if all(n in dictionary._size for n in t.channels))
+        dictionary.first_order = 0
+        return dictionary
 
     def _measure(self, names: Sequence[str]) -> dict[str, float]:
         """Root mean squares, SI, of those series that are not constant."""
-        found, r = {}, self._record
+        sizes, r = {}, self._record
         for n in names:
             x = self._channel(n, r)[r.valid]
             if np.ptp(x) > 0.0 or n in self._of_output:
-                found[n] = float(np.sqrt(np.mean(x**2))) or 1.0
-        return found
+                sizes[n] = float(np.sqrt(np.mean(x**2))) or 1.0
+        return sizes
 
     def __contains__(self, name: str) -> bool:
         """Whether a series is there and not constant."""
@@ -180,14 +180,13 @@ class Dictionary:
         carriers = {
             h: make_carrier(r, h).astype(np.float32) for h in dict.fromkeys(t.harmonic for t in chosen)
         }
-        wanted = dict.fromkeys(n for t in chosen for n in t.channels)
+        names = dict.fromkeys(n for t in chosen for n in t.channels)
         channels = {
-            n: (np.where(r.valid, self._channel(n, r), 0.0) / self._size[n]).astype(np.float32)
-            for n in wanted
+            n: (np.where(r.valid, self._channel(n, r), 0.0) / self._size[n]).astype(np.float32) for n in names
         }
         one = np.where(r.valid, np.float32(1.0), np.float32(0.0))
-        for some in split_range(len(chosen), TOGETHER):
-            part = chosen[some]
+        for places in split_range(len(chosen), TOGETHER):
+            part = chosen[places]
             x = np.empty((len(part), len(one)), dtype=np.float32)
             product, of = one, tuple[str, ...]()
             for n, t in enumerate(part):
@@ -196,7 +195,7 @@ class Dictionary:
                     for name in of:
                         product = product * channels[name]
                 np.multiply(product, carriers[t.harmonic], out=x[n])
-            yield some, x
+            yield places, x
 
     def _channel(self, name: str, r: Record) -> Array:
         first = int(np.searchsorted(self._record.time, r.time[0]))
@@ -221,25 +220,25 @@ def list_generic(auxiliary: Sequence[str]) -> list[tuple[str, ...]]:
     ]
     memory += [f"slow(square({x}), {t} s)" for x in ("f_i", "a_z") for t in WARMTH]
     memory += [f"slow(sign(d_{x}), {t} s)" for x in turning for t in FRICTION]
-    found: list[tuple[str, ...]] = [(n,) for n in memory]
-    found += [(n,) for f in turning for n in (f"d_{f}", f"d2_{f}")]
-    found += [(n,) for x in (*_FORCES, *rates) for n in (f"abs({x})", f"sign({x})")]
-    found += [(x, f"abs({y})") for x, y in product(_FORCES, _FORCES)]
-    found += [(x, x, f"sign({y})") for x, y in product(_FORCES, rates)]
-    found += [(x, x, f"abs({x})") for x in _FORCES]
-    found += combinations_with_replacement(_FORCES, 4)
-    found += [(x,) * 5 for x in _FORCES]
-    found += product(_FORCES, rates)
-    found += combinations_with_replacement(rates, 2)
-    found += [(*p, d) for p in pairs for d in rates]
-    found += product(turning, (*omega, *omegadot))
-    found += [(x, *p) for x in turning for p in combinations_with_replacement(omega, 2)]
-    found += [(*p, w) for p in pairs for w in (*omega, *omegadot)]
+    products: list[tuple[str, ...]] = [(n,) for n in memory]
+    products += [(n,) for f in turning for n in (f"d_{f}", f"d2_{f}")]
+    products += [(n,) for x in (*_FORCES, *rates) for n in (f"abs({x})", f"sign({x})")]
+    products += [(x, f"abs({y})") for x, y in product(_FORCES, _FORCES)]
+    products += [(x, x, f"sign({y})") for x, y in product(_FORCES, rates)]
+    products += [(x, x, f"abs({x})") for x in _FORCES]
+    products += combinations_with_replacement(_FORCES, 4)
+    products += [(x,) * 5 for x in _FORCES]
+    products += product(_FORCES, rates)
+    products += combinations_with_replacement(rates, 2)
+    products += [(*p, d) for p in pairs for d in rates]
+    products += product(turning, (*omega, *omegadot))
+    products += [(x, *p) for x in turning for p in combinations_with_replacement(omega, 2)]
+    products += [(*p, w) for p in pairs for w in (*omega, *omegadot)]
     for n in auxiliary:
-        found += [(n, n), *((x, n) for x in turning)]
-        found += [(x, n, n) for x in _FORCES] + [(*p, n) for p in pairs]
-        found += [] if n == "time" else [(x, f"d_{n}") for x in _FORCES]
-    return found
+        products += [(n, n), *((x, n) for x in turning)]
+        products += [(x, n, n) for x in _FORCES] + [(*p, n) for p in pairs]
+        products += [] if n == "time" else [(x, f"d_{n}") for x in _FORCES]
+    return products
 
 
 def list_harmonics(highest: int = HIGHEST) -> tuple[str, ...]:
@@ -282,8 +281,8 @@ def whiten_terms(
             series = o.recorded.through(series.astype(np.float64), wide).astype(np.float32)
             series[:, ~wide.valid] = 0.0
         even = noise.divide(series, level, filtered=False)
-        made = (filter_columns(even, np.asarray(w * taps), lead=lead) for w, taps in filters)
-        parts = [noise.divide(own, level[lead:], filtered=True)[:, o.record.valid] for own in made]
+        outputs = (filter_columns(even, np.asarray(w * taps), lead=lead) for w, taps in filters)
+        parts = [noise.divide(y, level[lead:], filtered=True)[:, o.record.valid] for y in outputs]
         X = np.concatenate(parts, axis=1).astype(np.float64)
         unknown_gradient.project(X, piece.windows)
         yield at, series[:, lead:].astype(np.float64), X
@@ -297,8 +296,8 @@ def whiten_terms(
 
 def is_recorded(name: str, r: Record) -> bool:
     """Whether a record has all that a series needs."""
-    found = series_name.list_channels(series_name.series(name, r.wide.keys()))
-    needed = {x for n in found for x in (("a_x", "a_y") if n in FORCES and n not in r.wide else (n,))}
+    channels = series_name.list_channels(series_name.series(name, r.wide.keys()))
+    needed = {x for n in channels for x in (("a_x", "a_y") if n in FORCES and n not in r.wide else (n,))}
     return needed <= {"time", *r.wide}
 
 
@@ -316,9 +315,9 @@ def _series(s: Series, r: Record, centre: Mapping[str, float]) -> Array:
     name = str(s)
     if name not in r.wide and series_name.list_channels(s)[0] in FORCES:
         return _turn_forces(name, r)
-    known = r.time if name == "time" else r.series(name)
-    assert known is not None, name
-    return np.asarray(known - centre[name]) if name in centre else known
+    values = r.time if name == "time" else r.series(name)
+    assert values is not None, name
+    return np.asarray(values - centre[name]) if name in centre else values
 
 
 def _turn_forces(name: str, r: Record) -> Array:

@@ -52,24 +52,24 @@ FINE = 4  # means in the shortest of them, at least, by which these are screened
 ONE = Term("const", ())
 
 
-def propose_formulas(f: Fitted, given: Sequence[int], left: Remainder) -> Remainder:
-    """What is left of all flights of a fit beside ``given`` candidate columns, in formulas where these are significant.
+def propose_formulas(f: Fitted, extra: Sequence[int], left: Remainder) -> Remainder:
+    """What is left of all flights of a fit beside ``extra`` candidate columns, in formulas where these are significant.
 
     What claims compete with are the dictionary's terms.
     """
-    found = [
-        s if x.observation.recorded.demodulated else _of_flight(f, n, given, s)
+    searches = [
+        s if x.observation.recorded.demodulated else _propose_formula(f, n, extra, s)
         for n, (x, s) in enumerate(zip(f.prepared, left.searches, strict=True))
     ]
-    return Remainder(tuple(found))
+    return Remainder(tuple(searches))
 
 
-def _of_flight(f: Fitted, flight: int, given: Sequence[int], search: Omnibus) -> Omnibus:
-    prepared, projector, _ = omnibus.project_out(f, flight, given)
-    known = omnibus.make_dictionary(prepared)
-    terms, tried = _screen(prepared, projector, known)
+def _propose_formula(f: Fitted, flight: int, extra: Sequence[int], search: Omnibus) -> Omnibus:
+    prepared, projector, _ = omnibus.project_out(f, flight, extra)
+    dictionary = omnibus.make_dictionary(prepared)
+    terms, tried = _screen(prepared, projector, dictionary)
     terms += [t.term for t in search.steady]
-    scores = Scores(prepared, projector, dictionary=known.with_terms([*dict.fromkeys(terms)]))
+    scores = Scores(prepared, projector, dictionary=dictionary.with_terms([*dict.fromkeys(terms)]))
     scores.collect(lambda piece, y: None)
     # a steady term that is left has been tested; another must stand out among all products
     best = omnibus.pursue(scores, search.tried if search.steady else tried + search.tried)
@@ -80,11 +80,11 @@ def _of_flight(f: Fitted, flight: int, given: Sequence[int], search: Omnibus) ->
     return replace(search, log_p=log_p, terms=taken, chi2=sum(t.chi2 for t in taken)) if taken else search
 
 
-def _screen(x: PreparedFlight, projector: Projector, known: Dictionary) -> tuple[list[Term], int]:
+def _screen(x: PreparedFlight, projector: Projector, dictionary: Dictionary) -> tuple[list[Term], int]:
     """The most promising products, and the number of all."""
     turns = list_harmonics() if x.observation.record.turning else ("const",)
-    stages = [(), *((n,) for n in (*FORCES, OUTPUT) if n in known)]
-    d = known.with_terms([Term(h, s) for s, h in product(stages, turns)])
+    stages = [(), *((n,) for n in (*FORCES, OUTPUT) if n in dictionary)]
+    d = dictionary.with_terms([Term(h, s) for s, h in product(stages, turns)])
     first = Scores(x, projector, dictionary=d)
     back = _filter_back(x, first.collect(lambda piece, y: (piece.sample, y)))
     gain = (first.norm2 / first.raw[1]).reshape(len(stages), len(turns))
@@ -169,10 +169,10 @@ def _filter_back(x: PreparedFlight, parts: Sequence[tuple[NDArray[np.intp], Arra
         y[:, sample[:count]] = left.reshape(noise.outputs, count)
     level = noise.level.of(o.record.quantity)
     y = noise.divide(y, level, filtered=True)
-    found = np.zeros(y.shape[1])
-    for own, w, taps in zip(y, noise.weights(o.weights), noise.taps(MEMORY), strict=True):
-        found += filter_columns(np.ascontiguousarray(own[None, ::-1]), np.asarray(w * taps))[0, ::-1]
-    return noise.divide(found, level, filtered=False)
+    total = np.zeros(y.shape[1])
+    for series, w, taps in zip(y, noise.weights(o.weights), noise.taps(MEMORY), strict=True):
+        total += filter_columns(np.ascontiguousarray(series[None, ::-1]), np.asarray(w * taps))[0, ::-1]
+    return noise.divide(total, level, filtered=False)
 
 
 # --- a term as an effect of the user's own: a line for ``effects`` in model.toml, and what the flight must have for it
@@ -206,14 +206,14 @@ def write_effect(term: Term, centre: Mapping[str, float], unit: str) -> str | No
 
 def list_effect_columns(term: Term) -> list[str]:
     """In words: the columns that a flight must have for :func:`write_effect`, since an expression has only the values of one instant."""
-    found = {}
+    columns = {}
     for name in term.channels:
         s = series_name.series(name)
         while isinstance(s, Function):
             s = s.of
         if not isinstance(s, ChannelName) and str(s) not in RATES:
-            found[_name_column(s)] = f"{_name_column(s)} ({describe_series(s)})"
-    return list(found.values())
+            columns[_name_column(s)] = f"{_name_column(s)} ({describe_series(s)})"
+    return list(columns.values())
 
 
 def describe_series(s: Series) -> str:

@@ -78,11 +78,11 @@ WEAKEST = 0.3  # share of the floor of columns below which a direction of severa
 
 def find_basis(P: Array, columns: Sequence[int], floor: Array, weakest: float = WEAKEST) -> Array:
     """(rows, k): orthonormal directions of those of some ``columns`` of P that have a norm above ``floor``."""
-    own = [k for k in columns if np.linalg.norm(P[:, k]) > floor[k]]
-    if not own:
+    testable = [k for k in columns if np.linalg.norm(P[:, k]) > floor[k]]
+    if not testable:
         return P[:, []]
-    U, s, _ = np.linalg.svd(P[:, own], full_matrices=False)
-    return np.asarray(U[:, s > max(weakest * np.max(floor[own]), 1e-7 * s[0])])
+    U, s, _ = np.linalg.svd(P[:, testable], full_matrices=False)
+    return np.asarray(U[:, s > max(weakest * np.max(floor[testable]), 1e-7 * s[0])])
 
 
 def measure_explained(P: Array, columns: Sequence[int], floor: Array) -> tuple[float, int]:
@@ -95,14 +95,14 @@ def list_sub_blocks(columns: Sequence[tuple[int, Column]]) -> list[tuple[tuple[i
     """Ways in which an effect may be present, each with the number of its kind: all its parameters; those of one accelerometer; one
     parameter in all accelerometers; one single value.
     """
-    every = tuple(n for n, _ in columns)
+    whole = tuple(n for n, _ in columns)
     by_accelerometer: dict[int | None, list[int]] = {}
     by_name: dict[str, list[int]] = {}
     for n, c in columns:
         by_accelerometer.setdefault(c.accelerometer, []).append(n)
         by_name.setdefault(c.name, []).append(n)
-    families: list[list[tuple[int, ...]]] = [[every]]
-    for groups in (by_accelerometer.values(), by_name.values(), [[n] for n in every]):
+    families: list[list[tuple[int, ...]]] = [[whole]]
+    for groups in (by_accelerometer.values(), by_name.values(), [[n] for n in whole]):
         family = [tuple(g) for g in groups]
         if len(family) > 1 and family not in families:
             families.append(family)
@@ -122,8 +122,8 @@ def list_ways(
     P: Array, columns: Sequence[tuple[int, Column]], floor: Array, weakest: float = WEAKEST
 ) -> list[Way]:
     """The ways in which an effect of these columns may be present, of which each can be tested."""
-    found = (Way(block, find_basis(P, block, floor, weakest), n) for block, n in list_sub_blocks(columns))
-    return [w for w in found if w.Q.shape[1]]
+    ways = (Way(block, find_basis(P, block, floor, weakest), n) for block, n in list_sub_blocks(columns))
+    return [w for w in ways if w.Q.shape[1]]
 
 
 def test(
@@ -134,12 +134,12 @@ def test(
     freedom: float = np.inf,
 ) -> Test:
     """The best of an effect's sub-blocks, its p-value corrected for their number (and by ``penalty``); ``freedom`` is the noise's."""
-    every = [n for n, _ in columns]
+    places = [n for n, _ in columns]
     # of hundreds of rows only those matter in which the effect's columns, triangular, are not zero
-    small = np.asarray(np.linalg.qr(P[:, [*every, -1]], mode="r"))
-    ways = list_ways(small, [(k, c) for k, (_, c) in enumerate(columns)], floor[every])
+    small = np.asarray(np.linalg.qr(P[:, [*places, -1]], mode="r"))
+    ways = list_ways(small, [(k, c) for k, (_, c) in enumerate(columns)], floor[places])
     if not ways:
-        return Test(chi2=0.0, rank=0, log_p=0.0, which=tuple(every))
+        return Test(chi2=0.0, rank=0, log_p=0.0, which=tuple(places))
     chi2 = np.array([np.sum((small[:, -1] @ w.Q) ** 2) for w in ways])
     rank = np.array([w.Q.shape[1] for w in ways])
     charge = np.log([w.count for w in ways]) + penalty
@@ -147,7 +147,7 @@ def test(
     k = int(np.argmax(evidence))
     log_p = min(0.0, log_sf(float(chi2[k]), int(rank[k]), freedom) + float(charge[k]))
     return Test(
-        float(chi2[k]), int(rank[k]), log_p, tuple(every[n] for n in ways[k].which), float(evidence[k])
+        float(chi2[k]), int(rank[k]), log_p, tuple(places[n] for n in ways[k].which), float(evidence[k])
     )
 
 
@@ -170,8 +170,8 @@ def estimate_effective_number(effects: Sequence[Sequence[Way]], level: float) ->
     for ways in effects:
         along = np.concatenate([w.Q for w in ways], axis=1).T @ noise
         ranks = np.array([w.Q.shape[1] for w in ways])
-        every = np.add.reduceat(along**2, np.cumsum(ranks) - ranks, axis=0)
-        for w, rank, chi2 in zip(ways, ranks, every, strict=True):
+        squares = np.add.reduceat(along**2, np.cumsum(ranks) - ranks, axis=0)
+        for w, rank, chi2 in zip(ways, ranks, squares, strict=True):
             largest[rank, w.count] = np.maximum(largest.get((rank, w.count), 0.0), chi2)
     p = [special.chdtrc(rank, chi2) * count for (rank, count), chi2 in largest.items()]
     least = np.min([np.ones(DRAWS), *p], axis=0)
@@ -228,17 +228,17 @@ class Scatter:
 
 
 def measure_scatter(
-    T: Array, flights: Sequence[PreparedFlight], given: Sequence[int], tests: Sequence[Sequence[int]]
+    T: Array, flights: Sequence[PreparedFlight], nuisance: Sequence[int], tests: Sequence[Sequence[int]]
 ) -> Scatter:
-    """Of each of some tests, of so many columns of an R factor [columns | data], beside those ``given``: along what is fitted, beside it,
-    so that what is tested raises no doubt of itself. ``flights``: those that the R factor is of.
+    """Of each of some tests, of so many columns of an R factor [columns | data], beside the ``nuisance`` ones: along what is fitted, beside
+    it, so that what is tested raises no doubt of itself. ``flights``: those that the R factor is of.
     """
-    # (given, columns + 1): what those given explain of every column, and of the data
-    B = np.linalg.lstsq(T[:, given], T, rcond=None)[0]
-    n, columns = len(given), sorted({k for tested in tests for k in tested})
+    # (nuisance, columns + 1): what those explain of every column, and of the data
+    B = np.linalg.lstsq(T[:, nuisance], T, rcond=None)[0]
+    n, columns = len(nuisance), sorted({k for tested in tests for k in tested})
     along, left = np.zeros((2, n + len(columns), len(tests)))
     for m, tested in enumerate(tests):
-        X, y = (T[:, k] - T[:, given] @ B[:, k] for k in (tested, [-1]))
+        X, y = (T[:, k] - T[:, nuisance] @ B[:, k] for k in (tested, [-1]))
         g = np.linalg.lstsq(X, y, rcond=DIRECTIONS)[0][:, 0]
         along[[n + columns.index(k) for k in tested], m] = g
         along[:n, m] = -B[:, tested] @ g
@@ -246,22 +246,22 @@ def measure_scatter(
         left[:n, m] -= B[:, -1]
     sums = np.zeros((3, len(tests)))
     for x in flights:
-        lean, own = x.lean([*given, *columns])
+        lean, places = x.lean([*nuisance, *columns])
 
-        def of(piece: Piece, own: Sequence[int] = own) -> Array:
-            X = piece.white[own].T
+        def of(piece: Piece, places: Sequence[int] = places) -> Array:
+            X = piece.white[places].T
             return Scatter.of(X @ along, piece.white[-1][:, None] + X @ left)
 
         sums += sum(lean.each(of))
     return Scatter.from_sums(sums)
 
 
-def temper_test(t: Test, by: float, known: float, freedom: float = np.inf) -> Test:
-    """A test whose chi-square is divided by the variance of its scores, ``known`` from so many degrees of freedom, where the noise is
-    from ``freedom``; corrections for variants stay.
+def temper_test(t: Test, inflation: float, degrees: float, freedom: float = np.inf) -> Test:
+    """A test whose chi-square is divided by ``inflation``, the variance of its scores, which is estimated with so many ``degrees`` of
+    freedom, as the noise is with ``freedom``; corrections for variants stay.
     """
-    if by <= 1.0:
+    if inflation <= 1.0:
         return t
-    change = log_sf(t.chi2 / by, t.rank, min(freedom, known)) - log_sf(t.chi2, t.rank, freedom)
-    less = t.weigh_alone() - t.weigh_alone(by)
-    return replace(t, log_p=min(0.0, t.log_p + change), log_b=t.log_b - less, inflation=by)
+    change = log_sf(t.chi2 / inflation, t.rank, min(freedom, degrees)) - log_sf(t.chi2, t.rank, freedom)
+    less = t.weigh_alone() - t.weigh_alone(inflation)
+    return replace(t, log_p=min(0.0, t.log_p + change), log_b=t.log_b - less, inflation=inflation)

@@ -42,22 +42,22 @@ class ParameterValue:
     accelerometer_name: str = ""
 
     def as_json(self) -> dict[str, object]:
-        own = {n: getattr(self, n) for n in ("name", "accelerometer", "value", "std", "unit")}
+        entries = {n: getattr(self, n) for n in ("name", "accelerometer", "value", "std", "unit")}
         weights = {"weights": list(self.weights)} if self.weights else {}
-        return own | spell_name(self.accelerometer, self.accelerometer_name) | weights
+        return entries | spell_name(self.accelerometer, self.accelerometer_name) | weights
 
 
 def list_parameter_values(
     columns: Sequence[Column], values: Array, covariance: Array
 ) -> list[ParameterValue]:
     """Fitted parameters (in scales) in their display units."""
-    found = []
+    parameters = []
     for c, value, variance in zip(columns, values, np.diag(covariance), strict=True):
         factor = c.scale / c.unit_factor
         std = float(np.sqrt(variance)) * factor
-        own = own_name(c), c.accelerometer, float(value) * factor, std, c.unit
-        found.append(ParameterValue(*own, accelerometer_name=c.accelerometer_name))
-    return found
+        fields = own_name(c), c.accelerometer, float(value) * factor, std, c.unit
+        parameters.append(ParameterValue(*fields, accelerometer_name=c.accelerometer_name))
+    return parameters
 
 
 def own_name(c: Column) -> str:
@@ -72,13 +72,13 @@ def list_patterns(layout: Layout) -> list[tuple[str, Array]]:
     """
     if layout.like_paper:
         return [(name, np.array(signs)) for name, signs in PATTERNS]
-    found = []
+    patterns = []
     for o in layout.outputs:
         for harmonic, weights in o.patterns:
             w = np.zeros(layout.size)
             w[list(o.members)] = weights
-            found.append((f"{o.name} {harmonic}", w))
-    return found
+            patterns.append((f"{o.name} {harmonic}", w))
+    return patterns
 
 
 # a name, a unit, the weights (n,), in that unit, of fitted columns in scales, and those of the accelerometers' values in it
@@ -92,24 +92,24 @@ def find_combinations(
 
     ``std`` is that of weights (n,) of values in scales; ``p`` the model's parameter vector.
     """
-    found = []
+    combinations = []
     alone, slopes = np.array([std(x) for x in np.eye(len(columns))]), name_values(model.chain, p)
     for name in dict.fromkeys(c.name for c in columns if c.accelerometer is not None):
         at = [k for k, c in enumerate(columns) if c.name == name]
         if len(at) != model.layout.size:
             continue
         each = [columns[k] for k in at]
-        known = alone[at] if np.all(alone[at] < SEEN) else np.ones(len(at))
+        stds = alone[at] if np.all(alone[at] < SEEN) else np.ones(len(at))
         factor = np.array([c.scale / c.unit_factor for c in each])
         # by the weight of each accelerometer in G_out, k_VI K1 (Eq. 1), over their mean
         gain = slopes["k_VI"] if name == "K1" else slopes["k_VI"] * slopes["K1"]
         for pattern, signs in list_patterns(model.layout):
             shares, w = signs * gain / np.mean(gain), np.zeros(len(columns))
             w[at] = shares * factor
-            if std(w) < SEEN * float(np.linalg.norm(w[at] * known)):
+            if std(w) < SEEN * float(np.linalg.norm(w[at] * stds)):
                 label = f"{pattern} {own_name(each[0])}"
-                found.append((label, each[0].unit, w, tuple(float(x) for x in shares)))
-    return found
+                combinations.append((label, each[0].unit, w, tuple(float(x) for x in shares)))
+    return combinations
 
 
 @dataclass(frozen=True)
@@ -130,12 +130,12 @@ class Estimates:
 
     def select(self, effect: str | None) -> Estimates:
         """Those of one effect, or, of none, of the instrument."""
-        own = [k for k, c in enumerate(self.columns) if c.effect == effect]
+        places = [k for k, c in enumerate(self.columns) if c.effect == effect]
         return replace(
             self,
-            columns=[self.columns[k] for k in own],
-            values=self.values[own],
-            covariance=self.covariance[np.ix_(own, own)],
+            columns=[self.columns[k] for k in places],
+            values=self.values[places],
+            covariance=self.covariance[np.ix_(places, places)],
         )
 
     def list_parameters(self) -> tuple[ParameterValue, ...]:
@@ -148,15 +148,15 @@ class Estimates:
         def std(w: Array) -> float:
             return float(np.sqrt(max(0.0, float(w @ self.covariance @ w))))
 
-        found = find_combinations(self.model, self.p, self.columns, std)
+        combinations = find_combinations(self.model, self.p, self.columns, std)
         return tuple(
             ParameterValue(name, None, float(w @ self.values), std(w), unit, shares)
-            for name, unit, w, shares in found
+            for name, unit, w, shares in combinations
         )
 
 
 def list_bounded_columns(f: Fitted) -> list[tuple[int, Column, DerivedParameter]]:
     """The fitted columns of effects whose parameter cannot have any size, each with its place and that parameter."""
-    own = {f"{e.id}.{q.name}": q for e in f.model.effects for q in e.parameters}
-    bounded = {name for name, q in own.items() if q.physical is not None or q.largest is not None}
-    return [(n, c, own[c.name]) for n, c in enumerate(f.calibration.columns) if c.name in bounded]
+    parameters = {f"{e.id}.{q.name}": q for e in f.model.effects for q in e.parameters}
+    bounded = {name for name, q in parameters.items() if q.physical is not None or q.largest is not None}
+    return [(n, c, parameters[c.name]) for n, c in enumerate(f.calibration.columns) if c.name in bounded]

@@ -42,12 +42,12 @@ class Ranked:
         """The row of an effect of which nothing is fitted."""
         return Ranked(effect, test, error, error, error)
 
-    def with_estimates(self, found: Estimates, instant: float | None) -> Ranked:
+    def with_estimates(self, estimates: Estimates, instant: float | None) -> Ranked:
         """The same with the values of the effect, and the instant of a step, s."""
-        values = found.list_parameters()
+        values = estimates.list_parameters()
         if instant is not None:
             values += (ParameterValue("t_step", accelerometer=None, value=instant, std=0.0, unit="s"),)
-        return replace(self, parameters=values, combinations=found.list_combinations())
+        return replace(self, parameters=values, combinations=estimates.list_combinations())
 
     @property
     def instant(self) -> float | None:
@@ -117,9 +117,9 @@ def rank_effects(stage: Stage, only: Container[str] | None = None) -> list[Ranke
             indistinguishable_from=tuple(sorted({*alike[-1]} - {e})),
         )
         columns, k = dict(problem.candidates[e]), f.n_base
-        own = [columns[k] for k in extras[e]]
-        found = Estimates(f.model, f.calibration.p, own, c[k:], covariance[k:, k:])
-        ranked.append(row.with_estimates(found, stage.instants.get(e)))
+        tested = [columns[k] for k in extras[e]]
+        estimates = Estimates(f.model, f.calibration.p, tested, c[k:], covariance[k:, k:])
+        ranked.append(row.with_estimates(estimates, stage.instants.get(e)))
     return ranked
 
 
@@ -203,9 +203,9 @@ def list_detectable(f: Fitted, problem: ProjectedProblem) -> list[Detectable]:
     rows = []
     left = np.linalg.norm(problem.P, axis=0)
     for e, columns in problem.candidates.items():
-        own = dict(columns)
+        by_place = dict(columns)
         for name in dict.fromkeys(c.name for _, c in columns):
-            best = [(left[n], own[n]) for n in problem.testable(e) if own[n].name == name]
+            best = [(left[n], by_place[n]) for n in problem.testable(e) if by_place[n].name == name]
             if best:
                 norm, c = max(best, key=lambda x: float(x[0]))
                 size = 3.0 / norm * c.scale / c.unit_factor
@@ -271,9 +271,9 @@ def weigh_sets(f: ProjectedProblem) -> Weights:
     length = np.array([w.Q.shape[1] for _, w in ways], dtype=np.intp)
     Q = np.concatenate([np.zeros((len(f.P), 0)), *(w.Q for _, w in ways)], axis=1)
 
-    def weigh_each(some: NDArray[np.intp]) -> Array:
-        chi2 = _measure_jointly(Q, f.P[:, -1], length, some)
-        return np.asarray(log_bayes(chi2, np.sum(length[some], axis=1)) + np.sum(weights[some], axis=1))
+    def weigh_each(group: NDArray[np.intp]) -> Array:
+        chi2 = _measure_jointly(Q, f.P[:, -1], length, group)
+        return np.asarray(log_bayes(chi2, np.sum(length[group], axis=1)) + np.sum(weights[group], axis=1))
 
     sets = [np.zeros((1, 0), dtype=np.intp), np.arange(len(ways), dtype=np.intp)[:, None]]
     logs = [np.zeros(1), weigh_each(sets[1])]
@@ -282,19 +282,19 @@ def weigh_sets(f: ProjectedProblem) -> Weights:
     for size in range(2, LARGEST + 1):
         sets.append(np.array([*combinations(best, size)], dtype=np.intp).reshape(-1, size))
         logs.append(weigh_each(sets[-1]))
-    every = np.concatenate(logs)
-    found = defaultdict[frozenset[str], float](float)
-    for some, weight in zip(
-        chain(*(x.tolist() for x in sets)), np.exp(every - every.max()).tolist(), strict=True
+    log_weights = np.concatenate(logs)
+    sums = defaultdict[frozenset[str], float](float)
+    for members, weight in zip(
+        chain(*(x.tolist() for x in sets)), np.exp(log_weights - log_weights.max()).tolist(), strict=True
     ):
-        found[frozenset(names[n] for n in some)] += weight
-    return found
+        sums[frozenset(names[n] for n in members)] += weight
+    return sums
 
 
 def _measure_jointly(Q: Array, y: Array, length: NDArray[np.intp], sets: NDArray[np.intp]) -> Array:
     """Chi-square (n,) of data y that sets (n, size) of blocks of columns of Q, each so long, explain together."""
     start, G, d = np.cumsum(length) - length, Q.T @ Q, Q.T @ y
-    found, lengths = np.zeros(len(sets)), length[sets]
+    chi2, lengths = np.zeros(len(sets)), length[sets]
     shapes = lengths @ (1 + np.max(length, initial=0)) ** np.arange(sets.shape[1])
     for key in np.unique(shapes):
         members = np.flatnonzero(shapes == key)
@@ -302,14 +302,14 @@ def _measure_jointly(Q: Array, y: Array, length: NDArray[np.intp], sets: NDArray
         begins = start[sets[members]].T[:, :, None]
         at = np.concatenate([b + np.arange(k) for b, k in zip(begins, shape, strict=True)], axis=1)
         inner = G[at[:, :, None], at[:, None]] + RIDGE * np.diag(np.arange(at.shape[1]) >= shape[0])
-        found[members] = np.sum(d[at] * np.linalg.solve(inner, d[at][..., None])[..., 0], axis=1)
-    return found
+        chi2[members] = np.sum(d[at] * np.linalg.solve(inner, d[at][..., None])[..., 0], axis=1)
+    return chi2
 
 
-def add_probability(r: Ranked, found: Probabilities, columns: Container[str]) -> Ranked:
+def add_probability(r: Ranked, credence: Probabilities, columns: Container[str]) -> Ranked:
     """The row with its effect's probability: none where the model has another effect that explains the same; ``None`` of a random
     effect, of which there is no evidence but its p-value.
     """
-    if r.effect in found.of or r.effect in columns:
-        return replace(r, probability=found.of.get(r.effect, 0.0))
+    if r.effect in credence.of or r.effect in columns:
+        return replace(r, probability=credence.of.get(r.effect, 0.0))
     return replace(r, probability=1.0 if np.isneginf(r.log_p) else None)

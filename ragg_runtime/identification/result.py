@@ -117,13 +117,13 @@ class Diagnosis:
 
     def expression(self) -> str | None:
         """The strongest unexplained term as a line for ``effects`` in model.toml, under a name of one's own."""
-        found = self._suggested
-        return None if found is None else found[1]
+        suggestion = self._suggested
+        return None if suggestion is None else suggestion[1]
 
     def needs(self) -> list[str]:
         """Columns, in words, that a flight must have for :meth:`expression`."""
-        found = self._suggested
-        return [] if found is None else formula.list_effect_columns(found[0])
+        suggestion = self._suggested
+        return [] if suggestion is None else formula.list_effect_columns(suggestion[0])
 
     @cached_property
     def _suggested(self) -> tuple[Term, str] | None:
@@ -138,8 +138,8 @@ class Diagnosis:
 
     def __repr__(self) -> str:
         errors = [("before", self.before.rms_Eo), ("after", self.after.rms_Eo), ("noise", self.noise_floor)]
-        said = f"{self.verdict}: {', '.join(self.found)}" if self.found else self.verdict
-        return describe.summarize("Diagnosis", said, *errors)
+        text = f"{self.verdict}: {', '.join(self.found)}" if self.found else self.verdict
+        return describe.summarize("Diagnosis", text, *errors)
 
     def _repr_html_(self) -> str:
         return render_notebook(describe.describe_diagnosis(self.as_json()))
@@ -222,8 +222,8 @@ def describe_disagreement(apart: Sequence[Disagreement]) -> str | None:
         lead = (
             each if all(g.explained for g in apart) else "one set of parameters does not explain all flights"
         )
-        said = "; ".join(g.in_words() for g in apart)
-        return f"{lead}: {said}. {changed}"
+        findings = "; ".join(g.in_words() for g in apart)
+        return f"{lead}: {findings}. {changed}"
     return (
         f"each of the {count} flights is explained separately, but they are inconsistent, and no effect of"
         f" the catalogue explains the difference. Consistent flights: {names}. {changed}. Calibrate each flight to see what"
@@ -243,13 +243,13 @@ class Group:
 
 
 def group_findings(
-    found: Sequence[str], ranking: Sequence[Ranked], steady: Sequence[Steady], shared: ResidualTerm | None
+    claims: Sequence[str], ranking: Sequence[Ranked], steady: Sequence[Steady], shared: ResidualTerm | None
 ) -> tuple[Group, ...]:
     """One group of each effect that is found; ``shared``: a generic term that explains as much as the only one."""
     others = {r.effect: r.indistinguishable_from for r in ranking}
-    names = {e: shared.term.words for e in found if shared and others.get(e)}
+    names = {e: shared.term.words for e in claims if shared and others.get(e)}
     names |= {s.effect: s.name for s in steady}
-    return tuple(Group(effects=(e, *others.get(e, ())), name=names.get(e)) for e in found)
+    return tuple(Group(effects=(e, *others.get(e, ())), name=names.get(e)) for e in claims)
 
 
 def heed_flags(d: Diagnosis, flights: Sequence[Flight]) -> Diagnosis:

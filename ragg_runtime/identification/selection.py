@@ -55,8 +55,8 @@ class ProjectedProblem:
     contains: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     norms: Array = field(init=False)
     P: Array = field(init=False)
-    _known: dict[tuple[str, ...], Mapping[str, Test]] = field(init=False, default_factory=dict)
-    """Tests by what was given: a selection asks for the same again when it swaps and drops."""
+    _cache: dict[tuple[str, ...], Mapping[str, Test]] = field(init=False, default_factory=dict)
+    """Tests by the effects beside them: a selection asks for the same again when it swaps and drops."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "norms", np.linalg.norm(self.T[:, self.n_base :], axis=0))
@@ -88,32 +88,32 @@ class ProjectedProblem:
         floor = np.maximum(self.floor, 1e-3 * np.linalg.norm(self.P, axis=0))
         return left, floor
 
-    def tests(self, given: Sequence[str] = ()) -> Mapping[str, Test]:
-        """The test of every effect that is not in ``given``, with those that are projected out."""
-        key = tuple(given)
-        if key not in self._known:
-            self._known[key] = self._tests(key)
-        return self._known[key]
+    def tests(self, beside: Sequence[str] = ()) -> Mapping[str, Test]:
+        """The test of every effect but those ``beside``, which are projected out."""
+        key = tuple(beside)
+        if key not in self._cache:
+            self._cache[key] = self._compute_tests(key)
+        return self._cache[key]
 
-    def _tests(self, given: Sequence[str]) -> dict[str, Test]:
+    def _compute_tests(self, beside: Sequence[str]) -> dict[str, Test]:
         P, floor = self.P, self.floor
-        if given:
-            P, floor = self.onto([n for e in given for n, _ in self.candidates[e]])
-        found = {
+        if beside:
+            P, floor = self.onto([n for e in beside for n, _ in self.candidates[e]])
+        tests = {
             e: likelihood_ratio.test(P, columns, floor, self.penalty.get(e, 0.0), self.freedom)
             for e, columns in self.candidates.items()
-            if e not in given
+            if e not in beside
         }
         # tests that say nothing stay as they are
-        raised = [e for e, t in found.items() if t.rank > 0 and t.log_p <= np.log(FAMILY)]
+        raised = [e for e, t in tests.items() if t.rank > 0 and t.log_p <= np.log(FAMILY)]
         if self.flights and raised:
-            known = [*range(self.n_base), *(self.n_base + n for e in given for n, _ in self.candidates[e])]
+            base = [*range(self.n_base), *(self.n_base + n for e in beside for n, _ in self.candidates[e])]
             norms = np.linalg.norm(P, axis=0)
-            tested = [[self.n_base + n for n in found[e].which if norms[n] > floor[n]] for e in raised]
-            scatter = likelihood_ratio.measure_scatter(self.T, self.flights, known, tested)
-            for e, by, known in zip(raised, scatter.inflation, scatter.freedom, strict=True):
-                found[e] = likelihood_ratio.temper_test(found[e], float(by), float(known), self.freedom)
-        return found
+            tested = [[self.n_base + n for n in tests[e].which if norms[n] > floor[n]] for e in raised]
+            scatter = likelihood_ratio.measure_scatter(self.T, self.flights, base, tested)
+            for e, by, freedom in zip(raised, scatter.inflation, scatter.freedom, strict=True):
+                tests[e] = likelihood_ratio.temper_test(tests[e], float(by), float(freedom), self.freedom)
+        return tests
 
     @cached_property
     def count(self) -> int:
@@ -123,8 +123,8 @@ class ProjectedProblem:
     @cached_property
     def effective_count(self) -> float:
         """Number of independent tests that err as often as these, which are alike (:func:`likelihood_ratio.estimate_effective_number`)."""
-        every = (likelihood_ratio.list_ways(self.P, c, self.floor) for c in self.candidates.values())
-        return likelihood_ratio.estimate_effective_number([ways for ways in every if ways], FAMILY)
+        effects = (likelihood_ratio.list_ways(self.P, c, self.floor) for c in self.candidates.values())
+        return likelihood_ratio.estimate_effective_number([ways for ways in effects if ways], FAMILY)
 
     def significant(self, t: Test, family: float = FAMILY) -> bool:
         """Whether the test of an effect is significant over the family."""
