@@ -54,6 +54,10 @@ usual steps (a platform that is set from one attitude to another rests there); s
 # relative distance of the encoder's rate from the model's spin rate that a disc's own slowness may have
 SAME_SPIN = 2e-3
 
+# g: no carrier keeps this up for half of a flight. A larger force of a wrong unit goes unnoticed else: an output of differences asks for
+# less and less unequal accelerometers (specific force 100 to 1e4 times too large left 10 Eo, every parameter at its sheet)
+LARGEST_FORCE = 10.0
+
 MOTION = (*SPECIFIC_FORCE, *ANGULAR_RATE)
 
 # the flag of a record in which nothing moves
@@ -72,6 +76,7 @@ def require_comparable(model: Model, instrument: Instrument, flight: Flight) -> 
                 expected="a column of that name with its unit",
                 remedy=f"record it, or take the effect out: ragg remove MODEL_DIR {e.id}",
             )
+    _require_force(where, flight, instrument.g0)
     f = max(abs(d.spin_frequency) for d in instrument.layout.discs)
     check = "check the unit of time (s, ms, min) and spin_frequency"
     if 0 < flight.duration * f < 1:
@@ -99,6 +104,20 @@ def require_comparable(model: Model, instrument: Instrument, flight: Flight) -> 
                 expected="the voltage of a turning disc",
                 remedy="a stuck or disconnected recorder? check the column",
             )
+
+
+def _require_force(where: Path | str, flight: Flight, g0: float) -> None:
+    """UserError if the specific force is larger than any flight's."""
+    a = np.stack([flight.channels[n] for n in SPECIFIC_FORCE])[:, flight.valid]
+    usual = float(np.median(np.linalg.norm(a, axis=0))) / g0 if a.size else 0.0
+    if usual > LARGEST_FORCE:
+        raise UserError(
+            "the specific force is larger than any flight's",
+            where=at(where, "columns a_x, a_y, a_z"),
+            found=f"{usual:.3g} g in half of the samples",
+            expected=f"at most {LARGEST_FORCE:g} g",
+            remedy="check their unit: cm/s^2 (Gal), mg or counts of a converter? The unit of a column can be corrected in a mapping",
+        )
 
 
 def _require_rate(what: str, where: Path | str, rate: float, f: float, remedy: str) -> None:

@@ -256,8 +256,7 @@ def test_samples_that_were_taken_unevenly_keep_their_instants() -> None:
 
 
 def test_columns_that_contradict_each_other_are_remarked() -> None:
-    x = flown(12)
-    c = x.channels
+    x, c = flown(12), flown(12).channels
     swapped = {**c, "omegadot_x": c["omegadot_y"], "omegadot_y": c["omegadot_x"]}
     for wrong, words in (
         (
@@ -272,8 +271,9 @@ def test_columns_that_contradict_each_other_are_remarked() -> None:
         (replace(x, channels={**c, "spin_angle": -np.pi / 2 * x.time}), "spin_angle turns at -0.25 Hz"),
     ):
         assert any(words in f.reason for f in list_remarks(drawn(12).sheet, wrong))
-    right = replace(x, channels={**c, "spin_angle": np.pi / 2 * x.time})
-    assert list_remarks(drawn(12).sheet, right) == []
+    assert list_remarks(drawn(12).sheet, replace(x, channels={**c, "spin_angle": np.pi / 2 * x.time})) == []
+    with pytest.raises(UserError, match="the specific force is larger than any flight's"):
+        screen(MODEL, drawn(12).sheet, changed(x, lambda n, v: 1e3 * v if n[:2] == "a_" else v))
 
 
 def demodulated(s: Scenario, x: Flight, low_pass: Any = None) -> Flight:
