@@ -128,8 +128,8 @@ class _Task:
         sums = {o.place: np.zeros(n + 1) for o in self.observations}
         if all(scale_factor(self.model, p, place) > 0.0 for place in sums):
             point, r_factors = LinearisationPoint(self.model, p, self.columns), []
-            for o, (own, spanned) in zip(self.observations, weights, strict=True):
-                for T, count, part in pass_over(point, o, own, _r_factor, spanned=spanned):
+            for o, (noise, spanned) in zip(self.observations, weights, strict=True):
+                for T, count, part in pass_over(point, o, noise, _r_factor, spanned=spanned):
                     r_factors.append(T)
                     rows += count
                     sums[o.place] += part
@@ -176,23 +176,23 @@ def fit(
         pairs = [(n, o.record) for n, o in zip(noise, observations, strict=True)]
         power = np.mean([n.power * n.swell(r) + n.line_power for n, r in pairs])
         size = max(size, float(np.sqrt(power)))
-    found = minimise(partial(task.linearise, weights=weights, size=size), x)
-    at, step = found.at, found.last
+    minimum = minimise(partial(task.linearise, weights=weights, size=size), x)
+    at, step = minimum.at, minimum.last
     for sums in at.sums.values():
         step = level_biases(step, sums, find_null_biases(task.columns))
-    known = Linear(add_prior(at.data / np.sqrt(max(1.0, at.excess)), range(len(x))))
+    posterior = Linear(add_prior(at.data / np.sqrt(max(1.0, at.excess)), range(len(x))))
     return Calibration(
-        p=task.vector(found.x + step),
+        p=task.vector(minimum.x + step),
         columns=task.columns,
         index=task.index,
-        covariance=known.covariance,
+        covariance=posterior.covariance,
         noise=tuple(noise),
         rows=at.rows,
         chi2=at.cost,
         excess=at.excess,
         unheld=at.unheld,
-        converged=found.converged,
-        reason=found.reason,
+        converged=minimum.converged,
+        reason=minimum.reason,
     )
 
 
@@ -230,7 +230,7 @@ def measure_to_nominal(model: Model, instrument: Instrument, c: Calibration) -> 
 def list_off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffSheet]:
     """The instrument's parameters that ended more than :data:`FAR` sigmas from their sheet, farthest first."""
     sheet, to_nominal = make_vector(model, instrument), measure_to_nominal(model, instrument, c)
-    found = [
+    parameters = [
         OffSheet(
             name=q.name,
             accelerometer=q.accelerometer,
@@ -243,7 +243,7 @@ def list_off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list
         for q, k, far in zip(c.columns, c.index, to_nominal, strict=True)
         if q.effect is None
     ]
-    return sorted((x for x in found if abs(x.sigmas) > FAR), key=lambda x: -abs(x.sigmas))
+    return sorted((x for x in parameters if abs(x.sigmas) > FAR), key=lambda x: -abs(x.sigmas))
 
 
 # root mean square of the distances of one kind of parameter, in the sheet's sigmas, from which the sheet is less sure of this kind
@@ -290,12 +290,12 @@ def _estimate_widths(model: Model, instrument: Instrument, c: Calibration) -> di
     kinds = {q.name: STATED if q.name in instrument.sigmas else q.si_unit for q in PARAMETERS}
     kinds |= {q.name: q.name for q in c.columns if q.effect is not None}
     squares = dict.fromkeys(kinds.values(), 0.0)
-    told = dict.fromkeys(kinds.values(), 0.0)
+    freedom = dict.fromkeys(kinds.values(), 0.0)
     to_nominal = measure_to_nominal(model, instrument, c)
     for q, far, variance in zip(c.columns, to_nominal, np.diag(c.covariance), strict=True):
         squares[kinds[q.name]] += float(far * instrument.widths.get(q.name, 1.0)) ** 2
-        told[kinds[q.name]] += max(0.0, 1.0 - float(variance))
-    width = {k: float(np.sqrt(x / max(told[k], 1.0))) for k, x in squares.items()}
+        freedom[kinds[q.name]] += max(0.0, 1.0 - float(variance))
+    width = {k: float(np.sqrt(x / max(freedom[k], 1.0))) for k, x in squares.items()}
     wide = {k: w >= WIDE and squares[k] >= FAR**2 for k, w in width.items()}
     wide[STATED] = wide.get(STATED, False) and c.excess <= QUIET
     return {n: width[k] for n, k in kinds.items() if wide[k]}

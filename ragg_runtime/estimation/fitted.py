@@ -110,7 +110,7 @@ class Fitted:
     @cached_property
     def data(self) -> Array:
         """R factor of all flights, without the prior."""
-        return fold([t for own in self.r_factors for t in own])
+        return fold([t for factors in self.r_factors for t in factors])
 
     @cached_property
     def whole(self) -> Array:
@@ -120,7 +120,7 @@ class Fitted:
     @cached_property
     def half(self) -> Array:
         """The same over the blocks on which a held-out fit is made."""
-        return fold([*(own[b] for own in self.r_factors for b in FITTED_BLOCKS), self._prior])
+        return fold([*(factors[b] for factors in self.r_factors for b in FITTED_BLOCKS), self._prior])
 
     @property
     def _prior(self) -> Array:
@@ -133,15 +133,15 @@ class Fitted:
         """
         T, n = self.half if held_out else self.whole, self.n_base
         picked = [*range(n), *(n + k for k in extra)]
-        known = Linear(add_prior(pick_columns(T, n, [*picked[n:], -1]), range(n, len(picked))))
-        coefficients = known.step
+        posterior = Linear(add_prior(pick_columns(T, n, [*picked[n:], -1]), range(n, len(picked))))
+        coefficients = posterior.step
         blocks = list(FITTED_BLOCKS if held_out else range(BLOCKS))
         biases = regressors.find_null_biases(self.calibration.columns)
         for place in dict.fromkeys(o.place for o in self.observations):
-            own = [x[blocks] for x, o in zip(self.sums, self.observations, strict=True) if o.place == place]
-            sums = np.sum(own, axis=(0, 1))[[*picked, -1]]
+            parts = [x[blocks] for x, o in zip(self.sums, self.observations, strict=True) if o.place == place]
+            sums = np.sum(parts, axis=(0, 1))[[*picked, -1]]
             coefficients = regressors.level_biases(coefficients, sums, biases)
-        return coefficients, known.covariance
+        return coefficients, posterior.covariance
 
     def vector(self, coefficients: Array, extra: Sequence[int] = ()) -> Array:
         """(size,): coefficients of base and ``extra`` candidates among those of all columns."""
@@ -162,10 +162,10 @@ class Fitted:
     def score(self, vectors: Sequence[Array]) -> list[Scored]:
         """How large the residuals are with these coefficients (size,)."""
         most = max(1, TOGETHER // sum(len(o.record.time) for o in self.observations))
-        found = []
-        for some in split_range(len(vectors), most):
-            found += self._score_each([x.residuals(np.stack(vectors[some])) for x in self.prepared])
-        return found
+        scores = []
+        for part in split_range(len(vectors), most):
+            scores += self._score_each([x.residuals(np.stack(vectors[part])) for x in self.prepared])
+        return scores
 
     def score_residuals(self, residuals: Sequence[Array]) -> Scored:
         """How large residuals (N,), V, are, one of each flight."""
@@ -185,13 +185,13 @@ class Fitted:
             squares.append(np.sum(power, axis=1) / np.sum(count))
             samples.append([np.sum(r.valid), np.sum(r.valid & held_out)])
             errors.append(measure_errors(e, r, k_ggi, [np.ones_like(held_out), held_out], beyond))
-        found = []
+        scores = []
         for n in range(len(residuals[0])):
-            own = zip(*(x[n] for x in errors), strict=True)
-            whole, held = (pool_errors(x, w) for x, w in zip(own, np.transpose(samples), strict=True))
+            groups = zip(*(x[n] for x in errors), strict=True)
+            whole, held = (pool_errors(x, w) for x, w in zip(groups, np.transpose(samples), strict=True))
             squared = tuple(float(x[n]) for x in squares)
-            found.append(Scored(whole, held, squared, np.stack([x[n] for x in blocks])))
-        return found
+            scores.append(Scored(whole, held, squared, np.stack([x[n] for x in blocks])))
+        return scores
 
 
 def calibrate_certain(
@@ -206,10 +206,10 @@ def calibrate_certain(
     """The parameters, the samples that the model describes, which are fitted, and the instrument with priors as wide as these require."""
     fit = partial(calibrate, model, instrument, noise=noise, start=start, unweighted=unweighted)
     observations = leave_out_uncertain(model, instrument, observations)
-    found = fit(observations)
-    kept = leave_out_extrapolated(model, found[1].p, observations)
+    result = fit(observations)
+    kept = leave_out_extrapolated(model, result[1].p, observations)
     if all(a is b for a, b in zip(kept, observations, strict=True)):
-        return (observations, *found)
+        return (observations, *result)
     return (kept, *fit(kept))
 
 
@@ -224,13 +224,13 @@ def calibrate(
 ) -> tuple[Instrument, Calibration]:
     """The parameters, and the instrument with wider priors where these bring the residual down to noise."""
     fit = partial(calibration.fit, model, observations=observations, noise=noise, unweighted=unweighted)
-    found = instrument, (c := fit(instrument, start=start))
+    first = instrument, (c := fit(instrument, start=start))
     for _ in range(WIDENED):
         wider = widen_priors(model, instrument, c) if c.converged else None
         if wider is None:  # or where it has not come to an optimum, which alone tells how wide
             break
         instrument, c = wider, fit(wider, start=c.p)
-    return (instrument, c) if c.excess <= QUIET else found
+    return (instrument, c) if c.excess <= QUIET else first
 
 
 @one_thread
@@ -266,7 +266,7 @@ def prepare_evidence(
     """The evidence about a calibration, however it was found; of its parameters alone without ``candidates``."""
     tested = regressors.list_tested_columns(model, instrument, [o.record for o in observations])
     at = regressors.make_point(model, instrument, c.p, tested if candidates else ())
-    prepared = tuple(prepare_flight(o, own, at) for o, own in zip(observations, c.noise, strict=True))
+    prepared = tuple(prepare_flight(o, noise, at) for o, noise in zip(observations, c.noise, strict=True))
     r_factors, sums = zip(*(whitening.factor_blocks(x) for x in prepared), strict=True)
     return Fitted(
         model=model,
@@ -362,12 +362,12 @@ def list_noise_floor(f: Fitted, rms_Eo: float) -> dict[str, float | None]:
 def predict_harmonic_noise(f: Fitted, harmonics: Iterable[str]) -> dict[str, float]:
     """The same at harmonics of the spin (const, cos 1 ...), Eo."""
     works = [(w, s) for w, s in zip(f.prepared, f.scales, strict=True) if _is_long(w)]
-    found = {}
+    noise = {}
     for h in harmonics:
         k = series_name.harmonic(h).multiple
         squares = [predict_demodulated_noise(w, s, k, 2.0 if k else 1.0) ** 2 for w, s in works]
-        found[h] = float(np.sqrt(np.mean(squares))) if squares else float("nan")
-    return found
+        noise[h] = float(np.sqrt(np.mean(squares))) if squares else float("nan")
+    return noise
 
 
 def _is_long(w: PreparedFlight) -> bool:

@@ -46,13 +46,13 @@ PANEL = 32  # columns that LAPACK eliminates at a time
 
 def compute_r_factor(columns: Array) -> Array:
     """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows. What is zero stays so, without work."""
-    some = find_nonzero(columns)
-    k = np.count_nonzero(some)
+    nonzero = find_nonzero(columns)
+    k = np.count_nonzero(nonzero)
     R = np.zeros((k, k), order="F")
     for start in range(0, columns.shape[1], CHUNK):
-        R = _enter_rows(R, np.asfortranarray(columns[some, start : start + CHUNK].T))
+        R = _enter_rows(R, np.asfortranarray(columns[nonzero, start : start + CHUNK].T))
     T = np.zeros((len(columns),) * 2)
-    T[np.ix_(some, some)] = R
+    T[np.ix_(nonzero, nonzero)] = R
     return T
 
 
@@ -95,12 +95,12 @@ def pick_columns(T: Array, first: int, picked: Sequence[int]) -> Array:
     return R
 
 
-def marginalise(root: Array, own: Sequence[int]) -> Array:
+def marginalise(root: Array, parameters: Sequence[int]) -> Array:
     """(n, n): a root of the information about some parameters, marginal over the others, from one (all, all) about all."""
-    others = [k for k in range(len(root)) if k not in set(own)]
+    others = [k for k in range(len(root)) if k not in set(parameters)]
     if not others:
         return root
-    whole = np.asarray(np.linalg.qr(root[:, [*others, *own]], mode="r"))
+    whole = np.asarray(np.linalg.qr(root[:, [*others, *parameters]], mode="r"))
     return whole[len(others) :, len(others) :]
 
 

@@ -87,13 +87,13 @@ def make_shapes(quantity: Callable[[str], Array], names: Iterable[str], level: L
     An amplifier's noise is a floor, a part in proportion to what it amplifies, and their products: variances grow with the sizes
     of forces and rates and with their squares, and with auxiliary channels. A random effect is claimed only if it explains more.
     """
-    found = [np.ones_like(quantity("time"))]
+    shapes = [np.ones_like(quantity("time"))]
     for n in dict.fromkeys(names):
         if n not in STEPPED:
             x = quantity(n)
-            found += [x, x**2] if n.startswith(("abs(", "input(")) or n in ("input-rms", "input") else [x]
-    weight = np.broadcast_to(level.of(quantity), found[0].shape) ** -2.0
-    return np.stack([np.ones_like(weight), *(f * weight for f in found)])
+            shapes += [x, x**2] if n.startswith(("abs(", "input(")) or n in ("input-rms", "input") else [x]
+    weight = np.broadcast_to(level.of(quantity), shapes[0].shape) ** -2.0
+    return np.stack([np.ones_like(weight), *(f * weight for f in shapes)])
 
 
 def score_excess(gram: Array) -> tuple[float, float]:
@@ -221,16 +221,16 @@ def _partition_intervals(edges: Array, count: Array, power: Array, fourth: float
     return np.asarray(edges[cuts[1:-1] - 1])
 
 
-def describe_disturbances(found: Sequence[Disturbance]) -> str | None:
+def describe_disturbances(disturbances: Sequence[Disturbance]) -> str | None:
     """Lines and jumps in one sentence; ``None`` if there are none."""
-    lines = sorted({float(f"{d.at:.4g}") for d in found if d.kind == "line"})
-    jumps = sorted({round(d.at) for d in found if d.kind == "jump"})
-    said = []
+    lines = sorted({float(f"{d.at:.4g}") for d in disturbances if d.kind == "line"})
+    jumps = sorted({round(d.at) for d in disturbances if d.kind == "jump"})
+    texts = []
     if lines:
-        said.append("lines at " + ", ".join(f"{x:.4g} Hz" for x in lines[:MOST_LINES]))
+        texts.append("lines at " + ", ".join(f"{x:.4g} Hz" for x in lines[:MOST_LINES]))
     if jumps:
-        said.append("jumps at " + ", ".join(f"{x} s" for x in jumps))
-    return "the output has " + " and ".join(said) if said else None
+        texts.append("jumps at " + ", ".join(f"{x} s" for x in jumps))
+    return "the output has " + " and ".join(texts) if texts else None
 
 
 def describe_level(level: Level) -> str | None:
@@ -245,8 +245,8 @@ def describe_level(level: Level) -> str | None:
     }
     one = "with the specific force along one input axis"
     named = [names.get(p.name, one if p.name.startswith("input(") else f"with {p.name}") for p in level.parts]
-    said = [f"{name} ({p.ratio:.2g} times)" for name, p in zip(named, level.parts, strict=True)]
-    return f"the noise level changes {' and '.join(said)}; samples are weighted accordingly"
+    texts = [f"{name} ({p.ratio:.2g} times)" for name, p in zip(named, level.parts, strict=True)]
+    return f"the noise level changes {' and '.join(texts)}; samples are weighted accordingly"
 
 
 # channels whose own values are no quantity for a level, but their sizes
@@ -423,16 +423,16 @@ class NoiseModel:
     def line_columns(self, time: Array, series: int) -> Array:
         """(k, m, n): what the lines span at some times, s, each in its own of the m ``series``."""
         shown = np.eye(series) if self.combinations is None else self.combinations
-        found = [
+        columns = [
             Disturbance("line", x.frequency).columns(time)[:, None] * shown[x.output][:, None]
             for x in self.lines
         ]
-        return np.concatenate(found) if found else np.empty((0, series, len(time)))
+        return np.concatenate(columns) if columns else np.empty((0, series, len(time)))
 
     def variance_shapes(self, r: Record) -> Array:
         """(k, rows): what the variance of whitened samples may follow (:func:`make_shapes`), one output after the other."""
-        found = make_shapes(r.quantity, level_quantities(r), self.level)[:, r.valid]
-        return np.tile(found, self.outputs)
+        shapes = make_shapes(r.quantity, level_quantities(r), self.level)[:, r.valid]
+        return np.tile(shapes, self.outputs)
 
 
 def level_quantities(r: Record) -> list[str]:

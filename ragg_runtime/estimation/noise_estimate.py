@@ -117,9 +117,9 @@ def estimate_noise(
     if level.parts:
         either = (replace(noise, level_first=x) for x in (False, True))
         noise = max(either, key=lambda n: _compute_evidence(at, o, n, chosen))
-    disturbances = [d.later(p.rows.start / o.record.rate) for p in parts for x in p.outputs for d in x.found]
-    said = describe_disturbances(disturbances), describe_level(level)
-    words = "; ".join(w for w in said if w is not None) or None
+    events = [d.later(p.rows.start / o.record.rate) for p in parts for x in p.outputs for d in x.events]
+    texts = describe_disturbances(events), describe_level(level)
+    words = "; ".join(w for w in texts if w is not None) or None
     free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
     return replace(noise, disturbed=words, freedom=free)
 
@@ -180,20 +180,20 @@ def _list_lines(parts: Sequence[_Part], o: Observation, level: Level) -> tuple[S
     """The lines of the output that are none of the motion's: where that has lines itself, they may be."""
     r, width = o.record, compute_line_width(o)
     spin = unknown_gradient.measure_spin_frequency(o) if r.turning else np.inf
-    found: list[SpectralLine] = []
+    lines: list[SpectralLine] = []
     for p in parts:
         loud = np.broadcast_to(level.of(take_quantities(o.record, p.rows)), p.valid.shape)[p.valid]
         for m, x in enumerate(p.outputs):
-            lines = np.array([d.at if d.kind == "line" else np.inf for d in x.found])
-            for f in lines[np.isfinite(lines)]:
-                near = [q for q in found if q.output == m and abs(f - q.frequency) < width]
+            at = np.array([d.at if d.kind == "line" else np.inf for d in x.events])
+            for f in at[np.isfinite(at)]:
+                near = [q for q in lines if q.output == m and abs(f - q.frequency) < width]
                 turns = int(np.rint(f / spin))
                 if 1 <= turns <= TURNS and abs(f - turns * spin) < width:
                     continue
                 # several next to each other are one that wanders
-                own = loud * np.sum(x.shapes[np.abs(lines - f) < width], axis=0)
-                found.append(SpectralLine(m, float(f), 0.0 if near else float(np.sqrt(2 * np.mean(own**2)))))
-    return () if found and any(_has_lines(o, p) for p in parts) else tuple(found)
+                line = loud * np.sum(x.shapes[np.abs(at - f) < width], axis=0)
+                lines.append(SpectralLine(m, float(f), 0.0 if near else float(np.sqrt(2 * np.mean(line**2)))))
+    return () if lines and any(_has_lines(o, p) for p in parts) else tuple(lines)
 
 
 # share of the power of a channel of the motion from which a line counts: by a smaller one an effect that is missing would show less
@@ -224,20 +224,20 @@ def _estimate_spectra(
     mean = float(np.sqrt(np.mean(loud)))
     models, filters = [], []
     for m in range(len(o.series)):
-        own = [p.outputs[m] for p in parts]
+        residuals = [p.outputs[m] for p in parts]
         slow = [] if means is None else [replace(means[m], rest=means[m].rest / mean)]
         low = slow[0].high if slow else 0.0
-        whole = [Stretch(x.series, rate, x.kept, low) for x in own]
+        whole = [Stretch(x.series, rate, x.kept, low) for x in residuals]
         model = estimate([*whole, *slow], band, spin)
         for _ in range(AGAIN):
-            coloured = model.red > RED and own[0].columns.size > 0
-            if not coloured and all(x.valid.all() for x in own):
+            coloured = model.red > RED and residuals[0].columns.size > 0
+            if not coloured and all(x.valid.all() for x in residuals):
                 break
             filled = []
-            for x in own:
-                there, lost = _fill(x.series, x.valid, model)
+            for x in residuals:
+                series, lost = _fill(x.series, x.valid, model)
                 kept = np.maximum(x.kept_of(model if coloured else None) - lost, 0.0)
-                filled.append(Stretch(there, rate, kept, low))
+                filled.append(Stretch(series, rate, kept, low))
             model = estimate([*filled, *slow], band, spin)
         models.append(model)
         if o.smoothed:  # what little there is above the band of the motion is motion below its sensors' noise, and not stationary
@@ -263,10 +263,10 @@ def _fill(rest: Array, valid: NDArray[np.bool_], model: Spectrum) -> tuple[Array
 
 def _choose_segments(o: Observation, most: int, samples: int) -> list[slice]:
     """The beginnings of at ``most`` so many segments, spread over the flight, with at most so many ``samples`` in all."""
-    found = spread(o.segments, most)
+    segments = spread(o.segments, most)
     if not o.recorded.demodulated:  # their columns pass a two-sided filter and are not divided
-        found = [slice(x.start, min(x.stop, x.start + samples // len(found))) for x in found]
-    return [rows for rows in found if np.sum(o.record.valid[rows]) >= SHORTEST]
+        segments = [slice(x.start, min(x.stop, x.start + samples // len(segments))) for x in segments]
+    return [rows for rows in segments if np.sum(o.record.valid[rows]) >= SHORTEST]
 
 
 def _fit_segments(
@@ -338,10 +338,10 @@ def _level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
     """Estimate the noise level from sample to sample."""
     z = [noise.whiten(np.stack([x.series for x in p.outputs])[None], p.valid)[0] for p in parts]
     # neighbours are alike where a part of the band has hardly any noise
-    every = max(1, round(1.0 / float(np.mean(np.concatenate(z) ** 2))))
+    step = max(1, round(1.0 / float(np.mean(np.concatenate(z) ** 2))))
 
     def join(each: Iterable[Array]) -> Array:
-        return np.concatenate([*each])[::every]
+        return np.concatenate([*each])[::step]
 
     records = [(o.record.part(p.rows), p.valid) for p in parts]
     quantities = {
@@ -363,13 +363,13 @@ def _compute_evidence(
 
     Coefficients that are fitted with one noise take more of what is not that noise: residuals alone favour the noise they were made with.
     """
-    found = 0.0
+    total = 0.0
     for T in pass_over(at, o, noise, lambda piece: piece.r_factor(), chosen=chosen):
         n = len(T) - 1
         T[:, :n] *= VAGUE
         R = np.diag(add_prior(T, range(n), np.zeros(n)))
-        found -= 0.5 * float(R[-1] ** 2) + float(np.sum(np.log(np.abs(R[:-1]))))
-    return found
+        total -= 0.5 * float(R[-1] ** 2) + float(np.sum(np.log(np.abs(R[:-1]))))
+    return total
 
 
 MEANS = 8192  # most means of a flight
@@ -388,23 +388,23 @@ def average_residuals(at: LinearisationPoint, o: Observation, unwhitened: NoiseM
     if len(o.segments) == 1:
         return None
     n, m = len(o.record.time), len(o.series)
-    every = -(-n // MEANS)
-    count = np.bincount(np.flatnonzero(o.record.valid) // every, minlength=-(-n // every))
+    length = -(-n // MEANS)
+    count = np.bincount(np.flatnonzero(o.record.valid) // length, minlength=-(-n // length))
     sums = np.zeros((len(at.base) + len(at.candidates) + 1, m, len(count)))
 
     def add(piece: Piece) -> None:
         plain = np.zeros_like(piece.columns)
         plain[:, :, piece.observation.record.valid] = piece.white.reshape(len(sums), m, -1)
-        boxes = slice(piece.rows.start // every, (piece.rows.stop - 1) // every + 1)
-        edges = np.arange(boxes.start, boxes.stop) * every - piece.rows.start
+        boxes = slice(piece.rows.start // length, (piece.rows.stop - 1) // length + 1)
+        edges = np.arange(boxes.start, boxes.stop) * length - piece.rows.start
         sums[:, :, boxes] += np.add.reduceat(plain, np.maximum(edges, 0), axis=2)
 
     for _ in pass_over(at, o, unwhitened, add):
         pass
-    valid = count >= FULL * every
+    valid = count >= FULL * length
     if np.sum(valid) < ENOUGH * len(sums):
         return None
-    rate = o.record.rate / every
+    rate = o.record.rate / length
     longest = max(rows.stop - rows.start for rows in o.segments) / o.record.rate
     below = min(PERIODS / longest, rate / MEANS_A_PERIOD)
     each = [fit_columns(sums[:, k, valid] / count[valid], valid, rate, None) for k in range(m)]

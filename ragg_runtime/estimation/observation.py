@@ -41,11 +41,11 @@ def split_at_blocks(rows: slice, samples: int) -> list[tuple[int, slice]]:
     return [(b, part) for b, part in parts if part.start < part.stop]
 
 
-def spread(found: Sequence[slice], most: int) -> list[slice]:
+def spread(segments: Sequence[slice], most: int) -> list[slice]:
     """At most so many of the segments, evenly spread."""
-    if len(found) <= most:
-        return list(found)
-    return [found[k] for k in np.linspace(0, len(found) - 1, most).round().astype(int)]
+    if len(segments) <= most:
+        return list(segments)
+    return [segments[k] for k in np.linspace(0, len(segments) - 1, most).round().astype(int)]
 
 
 Array = NDArray[np.float64]
@@ -61,11 +61,11 @@ def observe_flights(
 
     Unless ``whole``, they lack the middle of long gaps: there their times jump by as much as was not recorded.
     """
-    found = []
+    observations = []
     for n, x in enumerate(flights):
         forms = [find_recorded(x, instrument.layout, k) for k in range(len(instrument.layout.outputs))]
-        found += [replace(observe(x, instrument, k), flight=n) for k, form in enumerate(forms) if form]
-    return found if whole else [_shorten_gaps(o) for o in found]
+        observations += [replace(observe(x, instrument, k), flight=n) for k, form in enumerate(forms) if form]
+    return observations if whole else [_shorten_gaps(o) for o in observations]
 
 
 def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observation:
@@ -80,11 +80,11 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     k_ggi = scale(o, a["k_VI"] * a["K1"], instrument.radii + a["dR"])
     columns = form.columns(layout, o, flight.outputs) or ()
     if form.demodulated:
-        there = np.flatnonzero(np.isfinite([flight.outputs[c] for c in columns]).all(axis=0) & r.valid)
-        every = int(np.median(np.diff(there))) if len(there) > 1 else 1
+        rows = np.flatnonzero(np.isfinite([flight.outputs[c] for c in columns]).all(axis=0) & r.valid)
+        spacing = int(np.median(np.diff(rows))) if len(rows) > 1 else 1
         inside = np.zeros(len(r.time), dtype=bool)  # elsewhere the demodulator has not seen enough
         inside[r.low_pass.before : len(r.time) - r.low_pass.ahead] = True
-        r = replace(r, every=every, valid=r.valid & inside)
+        r = replace(r, every=spacing, valid=r.valid & inside)
     series = form.series([flight.outputs[c] for c in columns], r, k_ggi)
     if not (form.demodulated or form.separate):
         r = replace(r, reading=series[0])
@@ -201,7 +201,7 @@ class Thin:
     """
 
     whole: Observation
-    every: int
+    step: int
     taps: Array
     rows: slice
 
@@ -213,12 +213,12 @@ class Thin:
     def source(self) -> Observation:
         """The part of the whole that these are made of."""
         return self.whole.part(
-            slice(self.rows.start * self.every, (self.rows.stop - 1) * self.every + len(self.taps))
+            slice(self.rows.start * self.step, (self.rows.stop - 1) * self.step + len(self.taps))
         )
 
     def kept(self, x: Array) -> Array:
         """Series (..., N) over the :meth:`source`, thinned: (..., n), which does not hold on to the others."""
-        return convolve(x, self.taps)[..., :: self.every].copy()
+        return convolve(x, self.taps)[..., :: self.step].copy()
 
 
 def measure_information_per_sample(r: Record) -> float:
@@ -238,8 +238,8 @@ def measure_information_per_sample(r: Record) -> float:
     beside = np.rint(signal.correlate(x, x, method="fft"))[n:][: reach - 1]
     whole = count + 2 * float(np.maximum(count - lags, 0.0) @ squares(4 * np.pi * r.spin_frequency / r.rate))
     turn = np.pi / (2 * r.every) if r.every > 1 else 4 * np.pi * r.spin_frequency / r.rate
-    own = count + 2 * float(beside @ squares(turn))
-    return max(1.0, whole / own) if count else 1.0
+    kept = count + 2 * float(beside @ squares(turn))
+    return max(1.0, whole / kept) if count else 1.0
 
 
 def combine_output(o: Observation, e: Array) -> Array:

@@ -56,25 +56,25 @@ def spell_name(accelerometer: int | None, name: str) -> dict[str, str]:
 
 def list_base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int]]:
     """The calibratable parameters of the model, each with its index in the parameter vector."""
-    known = units(instrument.g0)
-    found: list[tuple[Column, int]] = []
+    table = units(instrument.g0)
+    columns: list[tuple[Column, int]] = []
     start = {name: place.start for name, place in model.chain.places.items()}
     for q in PARAMETERS:
         if q.name in UNOBSERVABLE or q.name in instrument.fixed:
             continue
-        factor, scales = find_unit_factor(q.display_unit, known), instrument.sigma(q.name)
+        factor, scales = find_unit_factor(q.display_unit, table), instrument.sigma(q.name)
         for j, place in enumerate(instrument.layout.names):
             c = Column(q.name, j + 1, float(scales[j]), q.display_unit, factor, None, place)
-            found.append((c, start[q.name] + j))
+            columns.append((c, start[q.name] + j))
     for e in model.effects:
         if e.kind in ("deterministic", "step"):
             setting = instrument.effect(e.id)
             out = instrument.held | {f"{e.id}.{n}" for n in (setting.fixed if setting else ())}
-            own = (
-                (c, s) for c, s in _list_effect_columns(e, known, instrument) if not {c.name, c.label} & out
+            free = (
+                (c, s) for c, s in _list_effect_columns(e, table, instrument) if not {c.name, c.label} & out
             )
-            found += [(c, start[s] + (c.accelerometer or 1) - 1) for c, s in own]
-    return found
+            columns += [(c, start[s] + (c.accelerometer or 1) - 1) for c, s in free]
+    return columns
 
 
 def list_own_columns(columns: Sequence[Column], instrument: Instrument, place: int) -> list[int]:
@@ -85,9 +85,9 @@ def list_own_columns(columns: Sequence[Column], instrument: Instrument, place: i
 
 def list_candidate_columns(model: Model, instrument: Instrument) -> list[Column]:
     """The parameters of the effects that are searched for and not in the model, in the order of the signatures' rows."""
-    known = units(instrument.g0)
+    table = units(instrument.g0)
     searched = (e for e in model.candidates if e.kind != "output" and e.searched)
-    return [c for e in searched for c, _ in _list_effect_columns(e, known, instrument)]
+    return [c for e in searched for c, _ in _list_effect_columns(e, table, instrument)]
 
 
 def list_tested_columns(model: Model, instrument: Instrument, records: Sequence[Record]) -> list[Column]:
@@ -98,18 +98,18 @@ def list_tested_columns(model: Model, instrument: Instrument, records: Sequence[
     def is_tested(c: Column) -> bool:
         e = effects[c.effect or ""]
         q = next(q for q in e.parameters if c.name == f"{e.id}.{q.name}")
-        there = q.channel is None or any(q.channel in h for h in have)
-        return there and not q.shape and not any(e.missing(h) for h in have)
+        recorded = q.channel is None or any(q.channel in h for h in have)
+        return recorded and not q.shape and not any(e.missing(h) for h in have)
 
     return [c for c in list_candidate_columns(model, instrument) if is_tested(c)]
 
 
-def _list_effect_columns(e: DerivedEffect, known: Units, instrument: Instrument) -> list[tuple[Column, str]]:
+def _list_effect_columns(e: DerivedEffect, table: Units, instrument: Instrument) -> list[tuple[Column, str]]:
     columns = []
     for q in e.parameters:
         if not q.fitted:
             continue
-        name, factor = f"{e.id}.{q.name}", find_unit_factor(q.unit, known)
+        name, factor = f"{e.id}.{q.name}", find_unit_factor(q.unit, table)
         scale = (
             EFFECT_PRIOR * q.plausible * factor * instrument.grade(q.like) * instrument.widths.get(name, 1.0)
         )
@@ -138,11 +138,11 @@ def level_biases(coefficients: Array, sums: Array, biases: Sequence[int]) -> Arr
 
     ``sums`` (n + 1,) are those of the columns and of the data over all samples; zeros: nothing is shifted.
     """
-    own = sums[list(biases)]
+    weights = sums[list(biases)]
     shifted = coefficients.copy()
-    if np.any(own):
+    if np.any(weights):
         left = sums[-1] - sums[:-1] @ coefficients
-        shifted[list(biases)] += own * left / (own @ own)
+        shifted[list(biases)] += weights * left / (weights @ weights)
     return shifted
 
 
@@ -232,15 +232,15 @@ def put_derivatives(
     row = {name: k for k, (name, _) in enumerate(chain.ROWS)}
     for k, (j, sign) in enumerate(zip(output.members, output.signs, strict=True)):
         series, weight = (k, 1) if recorded.separate else (0, sign)
-        own = [
+        entries = [
             (n, row[c.name], weight * c.scale)
             for n, c in enumerate(parameters)
             if c.accelerometer in (None, j + 1)
         ]
-        for some in split_range(len(time), CACHED):
-            slopes = chain.derivatives(j, time[some], x[:, some], p, phi[some])
-            for n, of, scale in own:
-                columns[n, series, some] += scale * slopes[of]
+        for part in split_range(len(time), CACHED):
+            slopes = chain.derivatives(j, time[part], x[:, part], p, phi[part])
+            for n, of, scale in entries:
+                columns[n, series, part] += scale * slopes[of]
 
 
 def compute_residual(model: Model, o: Observation, p: Array) -> Array:

@@ -50,14 +50,14 @@ def finite(x: float) -> float | None:
 
 def demodulate_residual(e: Array, r: Record, k_ggi: float) -> Complex:
     """Inline + i cross (..., N), Eo, of residuals of an output (..., N), V; NaN where a sample under the low-pass is missing."""
-    found = np.full(e.shape, complex(np.nan, np.nan))
+    demodulated = np.full(e.shape, complex(np.nan, np.nan))
     if r.turning:
         d = find_demodulator("fir", r.rate)
         cosine, sine = r.quadratures
-        there = find_whole(np.ones_like(r.valid), r.valid, d)
+        present = find_whole(np.ones_like(r.valid), r.valid, d)
         mixed = np.where(r.valid, e, 0.0) * ((4 * sine - 2j * cosine) / k_ggi)
-        found[..., there] = d.low_pass(mixed)[..., there]
-    return found
+        demodulated[..., present] = d.low_pass(mixed)[..., present]
+    return demodulated
 
 
 # share of the samples under the low-pass that may be missing, as spikes are: it takes zeros in their place
@@ -66,16 +66,16 @@ HOLES = 0.05
 
 def find_whole(selected: NDArray[np.bool_], valid: NDArray[np.bool_], d: Demodulator) -> NDArray[np.bool_]:
     """(N,): where the whole of a low-pass lies on samples of a selection (N,), mostly valid (N,)."""
-    taps, there = len(d.taps), np.zeros(len(valid), dtype=np.bool_)
+    taps, whole = len(d.taps), np.zeros(len(valid), dtype=np.bool_)
 
     def under(x: NDArray[np.bool_]) -> NDArray[np.int64]:
         seen = np.cumsum(np.pad(x.astype(np.int64), (1, 0)))
         return np.asarray(seen[taps:] - seen[:-taps])
 
-    there[d.before : max(d.before, len(valid) - d.ahead)] = (under(selected) == taps) & (
+    whole[d.before : max(d.before, len(valid) - d.ahead)] = (under(selected) == taps) & (
         under(valid) >= (1 - HOLES) * taps
     )
-    return there
+    return whole
 
 
 TOGETHER = 1 << 20  # samples of residuals that are demodulated together
@@ -93,17 +93,17 @@ def measure_errors(
         find_whole(x, r.valid, find_demodulator("fir", r.rate)) if r.turning else nowhere for x in selections
     ]
 
-    def measure(x: Array, seen: Complex, selected: NDArray[np.bool_], there: NDArray[np.bool_]) -> Error:
-        counted, g = selected & r.valid, seen[there]
+    def measure(x: Array, seen: Complex, selected: NDArray[np.bool_], inside: NDArray[np.bool_]) -> Error:
+        counted, g = selected & r.valid, seen[inside]
         rms = float(np.sqrt(np.mean(x[counted] ** 2) + beyond)) if counted.any() else float("nan")
         channels = (np.std(g.real), np.std(g.imag)) if len(g) > 1 else (np.nan, np.nan)
         return Error(rms, rms / k_ggi, float(channels[0]), float(channels[1]))
 
-    found = []
-    for some in split_range(len(e), max(1, TOGETHER // len(r.time))):
-        for x, seen in zip(e[some], demodulate_residual(e[some], r, k_ggi), strict=True):
-            found.append([measure(x, seen, *pair) for pair in zip(selections, whole, strict=True)])
-    return found
+    errors = []
+    for part in split_range(len(e), max(1, TOGETHER // len(r.time))):
+        for x, seen in zip(e[part], demodulate_residual(e[part], r, k_ggi), strict=True):
+            errors.append([measure(x, seen, *pair) for pair in zip(selections, whole, strict=True)])
+    return errors
 
 
 def measure_error(e: Array, r: Record, k_ggi: float) -> Error:

@@ -123,13 +123,13 @@ def estimate(
     """
     rate = residual[0].rate
     f, p, count = _pool_periodograms(residual, without)
-    every, low = np.ones_like(f, dtype=bool), f <= np.sqrt(f[0] * f[-1])
+    whole, low = np.ones_like(f, dtype=bool), f <= np.sqrt(f[0] * f[-1])
     choices = []
     for humps in _list_humps(spin):
         # what a steep end does to the lower half, in the logarithm, is none of its matter
-        for some, dense in ((every, None), (low, rate)):
-            own = _leave_out_humps(humps, f, some)
-            base = _fit_red_and_white(f[own], p[own], count[own])
+        for band, dense in ((whole, None), (low, rate)):
+            kept = _leave_out_humps(humps, f, band)
+            base = _fit_red_and_white(f[kept], p[kept], count[kept])
             choices.append((*_fit_correction(f, p, count, base, dense, humps), humps))
     # twice the log likelihood against the number of coefficients (BIC)
     _, log_density, humps = min(choices, key=lambda c: c[0])
@@ -161,14 +161,14 @@ def _hats(f: Array, humps: Sequence[float]) -> Array:
     """(n, HATS for each): hat functions of the distance from the humps, Hz; of near ones they are narrower."""
     apart = min(APART, 0.32 * humps[0]) if humps else APART
     away = [np.abs(f - h) / apart for h in humps]
-    found = [np.clip(1.0 - np.abs(x - k), 0.0, None) for x in away for k in range(HATS)]
-    return np.stack(found, axis=1) if found else np.empty((len(f), 0))
+    hats = [np.clip(1.0 - np.abs(x - k), 0.0, None) for x in away for k in range(HATS)]
+    return np.stack(hats, axis=1) if hats else np.empty((len(f), 0))
 
 
-def _leave_out_humps(humps: Sequence[float], f: Array, some: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _leave_out_humps(humps: Sequence[float], f: Array, band: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Those of some of the frequencies (n,) that are outside the humps, if that is most of them."""
-    beside = some & ~np.any(_hats(f, humps), axis=1)
-    return beside if 2 * np.sum(beside) > np.sum(some) else some
+    beside = band & ~np.any(_hats(f, humps), axis=1)
+    return beside if 2 * np.sum(beside) > np.sum(band) else band
 
 
 def _fit_correction(
@@ -272,10 +272,10 @@ LEAST = 10
 def cut_lines(p: Array) -> Array:
     """A periodogram with its lines cut down to their neighbourhood's median; of noise nothing is changed."""
     n = len(p)
-    found = p.copy()
+    cut = p.copy()
     first = 2 * LEAST
     if n <= 2 * first:
-        return found
+        return cut
     # medians in neighbourhoods that grow with frequency, each half overlapping the next
     starts, centres, levels = first, [], []
     while starts < n:
@@ -287,8 +287,8 @@ def cut_lines(p: Array) -> Array:
     k = np.arange(first, n)
     level = np.exp(np.interp(np.log(k), np.log(centres), np.log(np.maximum(levels, 1e-300))))
     high = p[first:] > LINE * level
-    found[first:][high] = level[high]
-    return found
+    cut[first:][high] = level[high]
+    return cut
 
 
 # of red noise, from flicker to a random walk, each as likely as any other before a record is seen
@@ -369,17 +369,17 @@ def find_lines(rest: Array, rate: float, without: tuple[float, float] | None) ->
         f, p = f[kept], p[kept]
     quiet = cut_lines(p)
     high = np.flatnonzero(p > quiet)
-    found: list[Disturbance] = []
+    lines: list[Disturbance] = []
     for k in sorted(high, key=lambda k: -p[k]):
-        if len(found) == MOST_LINES:
+        if len(lines) == MOST_LINES:
             break
         if k in (0, len(p) - 1) or p[k] < max(p[k - 1], p[k + 1]):
             continue
         # the logarithm of a Hann window's peak is nearly a parabola
         a, b, c = np.log(p[k - 1 : k + 2])
         shift = 0.5 * (a - c) / (a - 2 * b + c) if a + c < 2 * b else 0.0
-        found.append(Disturbance("line", float(f[k] + shift * (f[1] - f[0]))))
-    return found
+        lines.append(Disturbance("line", float(f[k] + shift * (f[1] - f[0]))))
+    return lines
 
 
 FILLED = 64  # columns whose gaps are filled together: what is needed for one is made anew for each group
@@ -391,7 +391,7 @@ class ProjectedResidual:
     """What columns leave of the last one.
 
     ``rest`` (rows,) is at the valid samples; ``rank`` the degrees of freedom of the columns; ``kept`` the share of white noise that
-    they leave at each frequency of the periodogram; ``found`` the lines and jumps fitted jointly; ``shapes`` (k, rows) their
+    they leave at each frequency of the periodogram; ``events`` the lines and jumps fitted jointly; ``shapes`` (k, rows) their
     fitted series. ``columns`` (n, rows) have ``coefficients`` (n,) and, times ``directions`` (n, k), are orthonormal. ``valid`` (N,)
     marks the rows.
     """
@@ -403,7 +403,7 @@ class ProjectedResidual:
     columns: Array
     directions: Array
     valid: NDArray[np.bool_]
-    found: Sequence[Disturbance] = ()
+    events: Sequence[Disturbance] = ()
     shapes: Array = field(default_factory=lambda: np.empty((0, 0)))
 
     @cached_property
@@ -428,8 +428,8 @@ class ProjectedResidual:
         if noise is None:
             return self.kept + float(np.sum(window[~valid] ** 2) / np.sum(window**2))
         density = noise.psd(fft.rfftfreq(size, 1.0 / noise.rate)) * noise.rate / 2
-        own = fft.rfft(window, size)
-        lags = fft.irfft(own.real**2 + own.imag**2, size) * fft.irfft(density, size)
+        transform = fft.rfft(window, size)
+        lags = fft.irfft(transform.real**2 + transform.imag**2, size) * fft.irfft(density, size)
         bins = n // 2 + 1
         power = np.interp(np.arange(bins) / n, fft.rfftfreq(size), fft.rfft(lags).real)
         Q, taps = self.basis, noise.whitening_filter(n)
@@ -471,12 +471,12 @@ def fit_columns(
             if jump is None or not _is_significant(left, through(jump.columns(time))[0], rate, band, raised):
                 break
             more = [jump]
-        found = [*left.found, *more]
-        spanned = [through(d.columns(time)) for d in found]
+        events = [*left.events, *more]
+        spanned = [through(d.columns(time)) for d in events]
         left = project_columns(np.vstack([*spanned, flat]), valid)
         ends = np.cumsum([0, *(len(x) for x in spanned)])
         shapes = [left.coefficients[a:b] @ left.columns[a:b] for a, b in pairwise(ends)]
-        left = replace(left, found=found, shapes=np.array(shapes))
+        left = replace(left, events=events, shapes=np.array(shapes))
     return left
 
 
@@ -497,15 +497,15 @@ def _find_best_jump(left: ProjectedResidual, rate: float) -> Disturbance | None:
             np.cumsum(x[..., ::-1], axis=-1)[..., ::-1][..., 1:]
             for x in (np.add.reduceat(left.rest, starts), spanned)
         )
-        own = (n - edges) - np.sum(shared**2, axis=0)
-        own = np.where(own > 1e-3 * np.minimum(edges, n - edges), own, np.inf)
-        best = int(np.argmax(after**2 / own))
+        norm2 = (n - edges) - np.sum(shared**2, axis=0)
+        norm2 = np.where(norm2 > 1e-3 * np.minimum(edges, n - edges), norm2, np.inf)
+        best = int(np.argmax(after**2 / norm2))
         if high - low <= INSTANTS:
             break
         reach = -(-(high - low) // INSTANTS)
         low, high = max(0, int(edges[best]) - reach - 1), min(n, int(edges[best]) + reach + 1)
     variance = float(left.rest @ left.rest) / max(1.0, n - left.rank)
-    if not float(after[best] ** 2 / own[best]) > JUMP * variance:
+    if not float(after[best] ** 2 / norm2[best]) > JUMP * variance:
         return None
     return Disturbance("jump", float(np.flatnonzero(left.valid)[edges[best]] / rate))
 
@@ -536,15 +536,15 @@ def _measure_taken(columns: Array, directions: Array, valid: NDArray[np.bool_]) 
     window = signal.windows.hann(n, sym=False)
     size = fft.next_fast_len(n, real=True)  # a little finer than the periodogram's own frequencies
     bins = size // 2 + 1
-    some = np.unique(np.r_[0 : min(bins, EVERY // 2), np.geomspace(1, bins, EVERY).astype(np.intp) - 1])
-    waves = np.empty((len(columns), len(some)), dtype=np.complex128)
+    picked = np.unique(np.r_[0 : min(bins, EVERY // 2), np.geomspace(1, bins, EVERY).astype(np.intp) - 1])
+    waves = np.empty((len(columns), len(picked)), dtype=np.complex128)
 
     for group in split_range(len(columns), GROUP):
         part = place_valid(columns[group] * window[valid], valid)
-        waves[group] = fft.rfft(part, size, axis=1)[:, some]
+        waves[group] = fft.rfft(part, size, axis=1)[:, picked]
     spanned = directions.T @ waves.view(np.float64)  # real and imaginary parts side by side: half the work
     taken = np.einsum("ij,ij->j", spanned, spanned).reshape(-1, 2).sum(axis=1)
-    return np.asarray(np.interp(np.arange(n // 2 + 1) * (size / n), some, taken / np.sum(window**2)))
+    return np.asarray(np.interp(np.arange(n // 2 + 1) * (size / n), picked, taken / np.sum(window**2)))
 
 
 ABSENT = 1e-11  # relative size of a direction of (normalised) columns that is rounding rather than physics
@@ -563,13 +563,13 @@ def project_columns(columns: Array, valid: NDArray[np.bool_]) -> ProjectedResidu
     inverse = Vt.T / np.maximum(s, 1e-300) / norms[:, None]
     coefficients = inverse @ (faded * (U.T @ R[:n, n]))
     lost = faded * (2.0 - faded)  # what a faded fit takes of the noise's power
-    some = lost > NOTHING
-    directions = inverse[:, some] * np.sqrt(lost[some])
-    there = np.sum(window[valid] ** 2) / np.sum(window**2)  # gaps count as lost
+    present = lost > NOTHING
+    directions = inverse[:, present] * np.sqrt(lost[present])
+    share = np.sum(window[valid] ** 2) / np.sum(window**2)  # gaps count as lost
     return ProjectedResidual(
         rest=np.asarray(columns[-1] - coefficients @ columns[:-1]),
         rank=float(np.sum(faded)),
-        kept=np.maximum(there - _measure_taken(columns[:-1], directions, valid), 0.0),
+        kept=np.maximum(share - _measure_taken(columns[:-1], directions, valid), 0.0),
         coefficients=coefficients,
         columns=columns[:-1],
         directions=directions,

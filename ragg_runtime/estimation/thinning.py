@@ -53,13 +53,13 @@ def leave_out_uncertain(
     observations = [_leave_out_ends(model, instrument, o) for o in observations]
     if not any(e.switches for e in model.effects):
         return observations
-    found = []
+    results = []
     for o in observations:
         # a sample of channels is made of many: of those none is left out
-        some = [] if o.recorded.demodulated else divide_into_segments(len(o.record.valid))
-        parts = [_open(model, instrument, o.part(rows)) for rows in some]
-        found.append(_leave_out(o, np.concatenate(parts)) if parts else o)
-    return found
+        segments = [] if o.recorded.demodulated else divide_into_segments(len(o.record.valid))
+        parts = [_find_open(model, instrument, o.part(rows)) for rows in segments]
+        results.append(_leave_out(o, np.concatenate(parts)) if parts else o)
+    return results
 
 
 def leave_out_extrapolated(model: Model, p: Array, observations: Sequence[Observation]) -> list[Observation]:
@@ -68,21 +68,21 @@ def leave_out_extrapolated(model: Model, p: Array, observations: Sequence[Observ
     """
     if not (any(n.startswith(("d_", "d2_")) for n in model.chain.INPUTS) or [*list_late(model)]):
         return list(observations)
-    found = []
+    results = []
     for o in observations:
         valid = o.record.valid
         ends = ndimage.binary_dilation(~valid & ~find_short_runs(~valid, FAR), iterations=WINDOW // 2)
         ends[:EXTRAPOLATED] = ends[-EXTRAPOLATED:] = True
         left = np.max(np.abs(compute_residual(model, o, p)), axis=0)
         std = STD_OF_MEDIAN * float(np.median(left[valid]))
-        found.append(_leave_out(o, ends) if np.any(left[ends & valid] > MISFIT * std) else o)
-    return found
+        results.append(_leave_out(o, ends) if np.any(left[ends & valid] > MISFIT * std) else o)
+    return results
 
 
-def _leave_out(o: Observation, some: NDArray[np.bool_]) -> Observation:
+def _leave_out(o: Observation, mask: NDArray[np.bool_]) -> Observation:
     """An observation without some samples (N,), unless these are too many."""
     valid = o.record.valid
-    kept = valid & ~some
+    kept = valid & ~mask
     if np.array_equal(kept, valid) or np.sum(kept) < (1.0 - MOST_LEFT_OUT) * np.sum(valid):
         return o
     return replace(o, record=replace(o.record, valid=kept))
@@ -106,18 +106,18 @@ def _leave_out_ends(model: Model, instrument: Instrument, o: Observation) -> Obs
     return _leave_out(o, outside)
 
 
-def _open(model: Model, instrument: Instrument, o: Observation) -> NDArray[np.bool_]:
+def _find_open(model: Model, instrument: Instrument, o: Observation) -> NDArray[np.bool_]:
     """(N,): whether the side of any of the output's accelerometers is open."""
     chain, r, p = model.chain, o.record, make_vector(model, instrument)
     x, members = r.inputs(chain), o.output.members
     rows = {name: k for k, (name, _) in enumerate(chain.ROWS)}
     base = [c for c, _ in design.list_base_columns(model, instrument) if c.effect is None]
-    found = np.zeros(len(r.time), dtype=np.bool_)
+    mask = np.zeros(len(r.time), dtype=np.bool_)
     for j, v in zip(members, chain.voltages(r.time, x, p, r.phi, members), strict=True):
         slopes = chain.derivatives(j, r.time, x, p, r.phi)
         variance = sum((slopes[rows[c.name]] * c.scale) ** 2 for c in base if c.accelerometer == j + 1)
-        found |= v**2 < OPEN**2 * variance
-    return found
+        mask |= v**2 < OPEN**2 * variance
+    return mask
 
 
 # one in so many samples may be kept; of one in two the whole record's residuals cost what the rest spares
@@ -146,11 +146,11 @@ def thin_observations(
     candidates = design.list_candidate_columns(model, instrument)
     at = make_point(model, instrument, make_vector(model, instrument), candidates)
     most = [_find_most(at, o) for o in observations]
-    found = []
+    results = []
     for o in observations:
-        every = min(k for k, x in zip(most, observations, strict=True) if x.flight == o.flight)
-        found.append(o if every == 1 else _keep_samples(_thin(o, every)))
-    return found
+        step = min(k for k, x in zip(most, observations, strict=True) if x.flight == o.flight)
+        results.append(o if step == 1 else _keep_samples(_thin(o, step)))
+    return results
 
 
 def _find_most(at: LinearisationPoint, o: Observation) -> int:
@@ -159,20 +159,20 @@ def _find_most(at: LinearisationPoint, o: Observation) -> int:
     choices = [k for k in EVERY if o.record.rate >= k * least]
     if o.recorded.demodulated or len(o.segments) == 1 or not choices:
         return 1
-    some = spread([rows for rows in o.segments if o.record.valid[rows].any()], EXCERPTS)
-    pieces = [o.part(slice(rows.start, min(rows.start + EXCERPT, rows.stop))) for rows in some]
+    chosen = spread([rows for rows in o.segments if o.record.valid[rows].any()], EXCERPTS)
+    pieces = [o.part(slice(rows.start, min(rows.start + EXCERPT, rows.stop))) for rows in chosen]
     whole = [linearise(at, _count_all(x))[:-1] for x in pieces]
 
-    def enough(every: int) -> bool:
-        thin = [_thin(x, every) for x in pieces]
+    def enough(step: int) -> bool:
+        thin = [_thin(x, step) for x in pieces]
         short = min(len(x.record.time) for x in pieces) < SHORT * len(thin[0].taps)
         return not short and _are_alike(at, thin, whole)
 
     if not enough(choices[-1]):  # a motion that shakes is soon known
         return 1
-    every = next((k for k in choices[:-1] if enough(k)), choices[-1])
-    lost = np.mean(o.record.valid) - np.mean(_find_supported(_thin(o, every)))
-    return 1 if lost > LOST or any(_has_line(at, _thin(o.part(rows), every)) for rows in some) else every
+    step = next((k for k in choices[:-1] if enough(k)), choices[-1])
+    lost = np.mean(o.record.valid) - np.mean(_find_supported(_thin(o, step)))
+    return 1 if lost > LOST or any(_has_line(at, _thin(o.part(rows), step)) for rows in chosen) else step
 
 
 def _count_all(o: Observation) -> Observation:
@@ -180,17 +180,17 @@ def _count_all(o: Observation) -> Observation:
     return replace(o, record=replace(o.record, valid=np.ones_like(o.record.valid)))
 
 
-def _thin(o: Observation, every: int) -> Thin:
-    taps = make_low_pass(every)
-    return Thin(whole=o, every=every, taps=taps, rows=slice(0, (len(o.record.time) - len(taps)) // every + 1))
+def _thin(o: Observation, step: int) -> Thin:
+    taps = make_low_pass(step)
+    return Thin(whole=o, step=step, taps=taps, rows=slice(0, (len(o.record.time) - len(taps)) // step + 1))
 
 
-def make_low_pass(every: int) -> Array:
+def make_low_pass(step: int) -> Array:
     """(2 h + 1,): taps, their sum 1, for one in so many samples (Kaiser's window)."""
     from scipy import signal  # slow to import, and only long flights need it
 
-    half, shape = signal.kaiserord(ATTENUATION, (STOPPED - PASSED) / every)
-    return np.asarray(signal.firwin(2 * (half // 2) + 1, 1.0 / every, window=("kaiser", shape)))
+    half, shape = signal.kaiserord(ATTENUATION, (STOPPED - PASSED) / step)
+    return np.asarray(signal.firwin(2 * (half // 2) + 1, 1.0 / step, window=("kaiser", shape)))
 
 
 def measure_beyond(model: Model, p: Array, o: Observation) -> float:
@@ -220,9 +220,9 @@ def _are_alike(at: LinearisationPoint, pieces: Sequence[Thin], whole: Sequence[A
         inside = ndimage.binary_erosion(o.record.valid, iterations=HALO)
         if 2 * np.sum(inside) < len(inside):
             return False  # too few samples to determine the rest
-        made, wanted = linearise(at, o)[:-1], thin.kept(columns)
-        square = square + np.sum(wanted[:, :, inside] ** 2, axis=(1, 2))
-        off = off + np.sum((made - wanted)[:, :, inside] ** 2, axis=(1, 2))
+        computed, expected = linearise(at, o)[:-1], thin.kept(columns)
+        square = square + np.sum(expected[:, :, inside] ** 2, axis=(1, 2))
+        off = off + np.sum((computed - expected)[:, :, inside] ** 2, axis=(1, 2))
     most = np.where(np.arange(len(off)) < len(at.base), ALIKE, NEAR)
     # memory of fast motion is not that of thinned motion: once such an effect is in the model, the record is taken whole
     memories = {e.id for e in at.model.candidates if e.memory}
@@ -234,7 +234,7 @@ def _has_line(at: LinearisationPoint, thin: Thin) -> bool:
     """Whether the part of a piece's residual that the low-pass removes has a line, which must be reported."""
     r, half, e = thin.whole.record, len(thin.taps) // 2, compute_residual(at.model, thin.whole, at.p)
     fast = e[:, half:-half] - convolve(e, thin.taps)
-    kept = (0.0, STOPPED * r.rate / (2 * thin.every))
+    kept = (0.0, STOPPED * r.rate / (2 * thin.step))
     return any(find_lines(x, r.rate, kept) for x in fast)
 
 
@@ -256,10 +256,10 @@ def _keep_samples(thin: Thin) -> Observation:
     series = tuple(kept(x) for x in o.series)
     record = replace(
         r,
-        time=np.array(r.time[half :: thin.every][: thin.rows.stop]),
+        time=np.array(r.time[half :: thin.step][: thin.rows.stop]),
         wide={n: kept(x, angle=is_disc_angle(n)) for n, x in r.channels.items()},
         reading=None if r.reading is None else series[0],
-        rate=r.rate / thin.every,
+        rate=r.rate / thin.step,
         valid=_find_supported(thin),
         halo=(0, 0),
         whole=None,

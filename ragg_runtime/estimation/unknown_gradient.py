@@ -142,22 +142,22 @@ def _share_among_series(o: Observation, X: Array) -> Array:
         g = o.gains * np.array(o.output.carriers) * radii / (np.max(radii) or 1.0)
     real, imaginary = g.real[:, None], g.imag[:, None]
     sine, cosine = X[0::2, None], X[1::2, None]
-    found = np.empty((len(X), len(g), X.shape[1]))
-    found[0::2] = real * sine + imaginary * cosine
-    found[1::2] = real * cosine - imaginary * sine
-    return found
+    shares = np.empty((len(X), len(g), X.shape[1]))
+    shares[0::2] = real * sine + imaginary * cosine
+    shares[1::2] = real * cosine - imaginary * sine
+    return shares
 
 
-def project(columns: Floats, found: Sequence[Window]) -> None:
+def project(columns: Floats, windows: Sequence[Window]) -> None:
     """Take what an unknown gradient spans out of whitened columns (n, rows), in place."""
-    for w in found:
+    for w in windows:
         Q, part = w.white.astype(columns.dtype, copy=False), columns[:, w.places]
         columns[:, w.places] = part - (part @ Q) @ Q.T
 
 
-def take_out(e: Array, found: Sequence[Window], valid: NDArray[np.bool_]) -> Array:
+def take_out(e: Array, windows: Sequence[Window], valid: NDArray[np.bool_]) -> Array:
     """Take the fitted unknown gradient out of residuals (k, m, N): it is signal, not error."""
-    gradient = [w for w in found if len(w.plain)]
+    gradient = [w for w in windows if len(w.plain)]
     if not gradient:
         return e
     left = e.copy()
@@ -205,10 +205,10 @@ class ModelledOutput:
     @cached_property
     def k_ggi(self) -> Array:
         """(N,) V/Eo."""
-        found = np.empty(len(self.observation.record.time))
+        factors = np.empty(len(self.observation.record.time))
         for b in self.blocks:
-            found[b.rows] = self.find_scale_factor(b.p)
-        return found
+            factors[b.rows] = self.find_scale_factor(b.p)
+        return factors
 
     @cached_property
     def mixer(self) -> Complex:
@@ -235,8 +235,8 @@ class ModelledOutput:
         """The output (N,), V, of a gradient inline + i cross (N,), Eo."""
         G = np.zeros(len(self.observation.record.time))
         for b in self.blocks:
-            for some in split_range(b.rows.stop - b.rows.start, ROWS):
-                rows = slice(b.rows.start + some.start, b.rows.start + some.stop)
+            for part in split_range(b.rows.stop - b.rows.start, ROWS):
+                rows = slice(b.rows.start + part.start, b.rows.start + part.stop)
                 r, x, moved = self.make_inputs(rows, gradient)
                 G[rows] = self.model.chain.output(r.time, x, b.p - moved, r.phi, which=self.observation.place)
         return G

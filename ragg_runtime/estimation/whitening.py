@@ -46,13 +46,13 @@ class Piece:
 
     def r_factor(self, first: int = 0, stop: int | None = None) -> Array:
         """Triangular factor (n + 1, n + 1) of the whitened columns: of the flight's samples from ``first`` on, before ``stop``."""
-        some = (self.sample >= first) & (self.sample < (self.rows.stop if stop is None else stop))
-        return compute_r_factor(self.white if some.all() else self.white[:, some])
+        mask = (self.sample >= first) & (self.sample < (self.rows.stop if stop is None else stop))
+        return compute_r_factor(self.white if mask.all() else self.white[:, mask])
 
-    def sums(self, some: slice = slice(None)) -> Array:
+    def sums(self, samples: slice = slice(None)) -> Array:
         """(n + 1,), V: sums of the columns of G_out over some samples; zero of channels, which have lost their mean."""
         weights = self.observation.signs * (not self.observation.recorded.demodulated)
-        return np.asarray(np.sum(self.columns[:, :, some], axis=2) @ weights)
+        return np.asarray(np.sum(self.columns[:, :, samples], axis=2) @ weights)
 
     def observed(self, e: Array) -> Array:
         """What residuals of the series (k, m, N), V, are of G_out (k, N); no unknown gradient."""
@@ -93,9 +93,9 @@ def pass_over(
                 white = white.copy()  # a noise of one volt leaves the columns themselves
                 unknown_gradient.project(white, windows)
             sample = np.tile(np.flatnonzero(part.record.valid) + rows.start, noise.outputs)
-        made = work(Piece(rows, part, columns, white, sample, windows, noise))
+        result = work(Piece(rows, part, columns, white, sample, windows, noise))
         progress.step(share * (rows.stop - rows.start))
-        yield made
+        yield result
 
 
 @dataclass(frozen=True)
@@ -140,10 +140,10 @@ class PreparedFlight:
         """Residuals of G_out (k, N), V, once columns have coefficients v (k, size); no unknown gradient."""
         n = len(self.at.base)
         places = [*range(n), *(n + np.flatnonzero(np.any(v[:, n:], axis=0)))]
-        lean, own = self.lean(places)
+        lean, rows = self.lean(places)
 
         def left(piece: Piece) -> Array:
-            return piece.observed(piece.columns[-1] - np.tensordot(v[:, places], piece.columns[own], 1))
+            return piece.observed(piece.columns[-1] - np.tensordot(v[:, places], piece.columns[rows], 1))
 
         return np.concatenate([*lean.each(left, chosen=chosen, whitened=False)], axis=1)
 
@@ -173,8 +173,8 @@ def factor_blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
         first = piece.rows.start
         for b, x in split_at_blocks(piece.rows, samples):
             # a day has hundreds of segments: those of a block are joined as they come
-            own = piece.r_factor(x.start, x.stop)
-            r_factors[b] = join([r_factors[b], own]) if b in r_factors else own
+            factor = piece.r_factor(x.start, x.stop)
+            r_factors[b] = join([r_factors[b], factor]) if b in r_factors else factor
             totals[b] += piece.sums(slice(x.start - first, x.stop - first))
 
     for _ in prepared.each(add):
@@ -216,9 +216,9 @@ class Projector:
         """
         n, m = len(self.taken), len(scores)
         sizes, U = np.linalg.eigh(gram)
-        known = sizes > DEPENDENT * sizes[-1]  # columns that are nearly the same, in single precision
-        root = np.sqrt(np.where(known, sizes, 0.0))
-        beside = np.where(known, U.T @ scores, 0.0) / np.where(known, root, 1.0)
+        independent = sizes > DEPENDENT * sizes[-1]  # columns that are nearly the same, in single precision
+        root = np.sqrt(np.where(independent, sizes, 0.0))
+        beside = np.where(independent, U.T @ scores, 0.0) / np.where(independent, root, 1.0)
         X: Array = np.block(
             [
                 [np.linalg.pinv(self.to_basis), along.T, self.along[:, None]],
@@ -240,14 +240,14 @@ class Projector:
 
 
 def make_projector(
-    r_factors: Sequence[Array], n_base: int, given: Sequence[int], to_nominal: Array | None = None
+    r_factors: Sequence[Array], n_base: int, extra: Sequence[int], to_nominal: Array | None = None
 ) -> Projector:
-    """The projector onto base and ``given`` candidate columns, from the block R factors of a flight; ``to_nominal`` (n_base,): where the
+    """The projector onto base and ``extra`` candidate columns, from the block R factors of a flight; ``to_nominal`` (n_base,): where the
     priors of the base are centred, those of the others at zero.
     """
-    taken = np.array([*range(n_base), *(n_base + n for n in given)], dtype=np.intp)
+    taken = np.array([*range(n_base), *(n_base + n for n in extra)], dtype=np.intp)
     T = join([t[:, [*taken, t.shape[1] - 1]] for t in r_factors])
     U, s, Vt = np.linalg.svd(T[:, :-1], full_matrices=False)
     seen = s > 1.0
-    centre = None if to_nominal is None else np.append(to_nominal, np.zeros(len(given)))
+    centre = None if to_nominal is None else np.append(to_nominal, np.zeros(len(extra)))
     return Projector(taken, np.asarray(Vt[seen].T / s[seen]), np.asarray(U[:, seen].T @ T[:, -1]), centre)

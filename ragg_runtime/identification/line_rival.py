@@ -34,11 +34,11 @@ CONSTANT = 0.99
 
 @dataclass(frozen=True)
 class LineAlternative:
-    """A line that explains as much as some effects, which explain the chi-square ``own`` next to the other chosen effects."""
+    """A line that explains as much as some effects, which explain the chi-square ``by_effects`` next to the other chosen effects."""
 
     line: NearLine
     effects: tuple[str, ...]
-    own: float
+    by_effects: float
 
     @property
     def words(self) -> str:
@@ -52,14 +52,14 @@ class LineAlternative:
         if not rem.significant:
             return True
         best = max((t.z**2 - 2.0 * np.log(s.tried) for s in rem.searches for t in s.terms), default=0.0)
-        return bool(self.line.chi2 - self.own > best - INDISTINGUISHABLE)
+        return bool(self.line.chi2 - self.by_effects > best - INDISTINGUISHABLE)
 
     def within(self, rem: Remainder) -> Remainder:
         """A residual of which this line is the strongest term."""
-        found = ResidualTerm.of_line(self.line.frequency, self.line.amplitude, self.line.chi2)
+        term = ResidualTerm.of_line(self.line.frequency, self.line.amplitude, self.line.chi2)
         first, *others = rem.searches
         log_p = min(first.log_p, self.line.log_p)
-        return Remainder((replace(first, log_p=log_p, terms=(found,), chi2=found.chi2), *others))
+        return Remainder((replace(first, log_p=log_p, terms=(term,), chi2=term.chi2), *others))
 
 
 @dataclass(frozen=True)
@@ -81,12 +81,12 @@ class Steady:
     @property
     def words(self) -> str:
         others = f", like {', '.join(self.others)}" if self.others else ""
-        said = f"{self.effect} acts as {self.name}{others}"
+        text = f"{self.effect} acts as {self.name}{others}"
         if not self.exactly:
-            return said
+            return text
         # three times Cramer-Rao: 12 over the square of duration and of signal to noise, rad/s (Rife and Boorstyn, IEEE Trans. IT 20, 1974)
         width = 3.0 * float(np.sqrt(12.0 / self.line.chi2)) / (2 * np.pi * self.line.duration)
-        return f"{said}; a line within {width:.1g} Hz of {self.line.multiple:.6g} Hz would explain it too"
+        return f"{text}; a line within {width:.1g} Hz of {self.line.multiple:.6g} Hz would explain it too"
 
 
 def find_line_rival(
@@ -103,7 +103,7 @@ def find_line_rival(
         at_multiple, enough = line.chi2 - line.slip, chi2 - INDISTINGUISHABLE
         surely = line.log_p <= np.log(false_alarms.REMAINDER)
         if line.slip >= SLIP and line.chi2 >= enough and surely:
-            return LineAlternative(line=line, effects=effects, own=chi2), ()
+            return LineAlternative(line=line, effects=effects, by_effects=chi2), ()
         # a line at the very multiple explains as much, or all but a small part
         if len(effects) == 1 and at_multiple >= min(enough, CONSTANT * chi2):
             steady.append(Steady(effects[0], others, line, exactly=at_multiple >= enough))
@@ -120,8 +120,8 @@ def _list_contested(steps: Sequence[AddedEffect], last: Stage) -> Iterator[Conte
         yield (t.effect,), t.test.chi2, t.before, (), t.alternatives
     problem, chosen = last.problem, last.chosen
     whole, _ = problem.joint([*chosen.values()])
-    every = [tuple(chosen)] if len(chosen) > 1 else []
-    for effects in (*every, *((e,) for e in chosen)):
+    groups = [tuple(chosen)] if len(chosen) > 1 else []
+    for effects in (*groups, *((e,) for e in chosen)):
         others = [o for o in chosen if o not in effects]
         chi2 = whole - problem.joint([chosen[o] for o in others])[0]
         beside = [n for o in others for n, _ in problem.candidates[o]]
@@ -160,26 +160,26 @@ class NearLine:
     duration: float
 
 
-def find_best_line(f: Fitted, given: Sequence[int]) -> NearLine | None:
-    """The sinusoid next to a multiple of the spin rate that explains most, base and ``given`` candidate columns projected out.
+def find_best_line(f: Fitted, extra: Sequence[int]) -> NearLine | None:
+    """The sinusoid next to a multiple of the spin rate that explains most, base and ``extra`` candidate columns projected out.
 
     ``None`` of several records or of channels, where no disc turns, or where none has a direction of its own.
     """
     if len(f.prepared) != 1 or f.observations[0].recorded.demodulated:
         return None
-    x, projector, _ = omnibus.project_out(f, 0, given)
+    x, projector, _ = omnibus.project_out(f, 0, extra)
     r = x.observation.record
     if not r.turning:
         return None
     duration = float(r.time[-1] - r.time[0])
     width = 1.0 / duration
     offsets = np.arange(-REACH, REACH + STEP / 2, STEP) * width
-    found = np.concatenate([m * r.spin_frequency + offsets for m in MULTIPLES])
-    found = found[found < r.rate / 2 - width]
-    if not len(found):
+    frequencies = np.concatenate([m * r.spin_frequency + offsets for m in MULTIPLES])
+    frequencies = frequencies[frequencies < r.rate / 2 - width]
+    if not len(frequencies):
         return None
-    first = _measure_lines(x, projector, found)
-    rough = float(found[int(np.argmax(first[0]))])
+    first = _measure_lines(x, projector, frequencies)
+    rough = float(frequencies[int(np.argmax(first[0]))])
     turns = round(rough / r.spin_frequency)
     multiple = turns * r.spin_frequency
     near = np.append(rough + np.linspace(-STEP, STEP, 2 * FINER + 1) * width, multiple)
@@ -193,7 +193,7 @@ def find_best_line(f: Fitted, given: Sequence[int]) -> NearLine | None:
         chi2=float(chi2[k]),
         amplitude=float(size[k] * np.sqrt(volts2)),
         slip=float(chi2[k] - chi2[-1]),
-        log_p=min(0.0, float(np.log(len(found)) - chi2[k] / 2)),  # of two degrees of freedom
+        log_p=min(0.0, float(np.log(len(frequencies)) - chi2[k] / 2)),  # of two degrees of freedom
         turns=turns,
         multiple=multiple,
         duration=duration,
@@ -206,7 +206,7 @@ def _measure_lines(x: PreparedFlight, projector: Projector, frequencies: Array) 
     def sums(piece: Piece) -> Array:
         Q = projector.basis(piece)
         right = np.column_stack([projector.left(piece, Q), Q])
-        parts = (_make_waves(x, piece, frequencies[some]) for some in split_range(len(frequencies), TOGETHER))
+        parts = (_make_waves(x, piece, frequencies[part]) for part in split_range(len(frequencies), TOGETHER))
         return np.concatenate([np.dstack([X @ right, X @ X.transpose(0, 2, 1)]) for X in parts])
 
     total = np.sum([*x.each(sums)], axis=0)

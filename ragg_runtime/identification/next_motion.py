@@ -76,7 +76,7 @@ def find_limit(limits: Mapping[str, float], kind: str, k: str) -> float:
 
 def list_tones(spin: float, limits: Mapping[str, float], band: tuple[float, float]) -> list[Sinusoid]:
     """The sinusoids of multiples of the spin frequency within a band, Hz, each as large as the limits let it be."""
-    found = []
+    tones = []
     for axis in (*AXES, *MASS):
         kind, _, k = axis.partition("_")
         most, steepest = find_limit(limits, kind, k), find_limit(limits, SLOPES[kind], k)
@@ -85,8 +85,8 @@ def list_tones(spin: float, limits: Mapping[str, float], band: tuple[float, floa
         for ratio in RATIOS:
             frequency = ratio * (abs(spin) or AT_REST)
             if band[0] <= frequency <= band[1]:
-                found.append((axis, frequency, float(min(most, steepest / (2 * np.pi * frequency))), 0.0))
-    return found
+                tones.append((axis, frequency, float(min(most, steepest / (2 * np.pi * frequency))), 0.0))
+    return tones
 
 
 def share_evenly(tones: Sequence[Sinusoid]) -> list[Sinusoid]:
@@ -96,24 +96,24 @@ def share_evenly(tones: Sequence[Sinusoid]) -> list[Sinusoid]:
     ----------
     M. Schroeder, IEEE Trans. Inf. Theory 16, 1970.
     """
-    found: list[Sinusoid] = []
+    shares: list[Sinusoid] = []
     for axis in dict.fromkeys(t[0] for t in tones):
-        own = [t for t in tones if t[0] == axis]
-        n = len(own)
-        found += [(axis, f, a / n, -np.pi * k * (k + 1) / n) for k, (_, f, a, _) in enumerate(own)]
-    return found
+        group = [t for t in tones if t[0] == axis]
+        n = len(group)
+        shares += [(axis, f, a / n, -np.pi * k * (k + 1) / n) for k, (_, f, a, _) in enumerate(group)]
+    return shares
 
 
 def move_channels(calm: Mapping[str, Array], motion: Sequence[Sinusoid], time: Array) -> dict[str, Array]:
     """The channels (N,) that sinusoids move, and their angular accelerations, added to their means."""
-    found: dict[str, Array] = {}
+    channels: dict[str, Array] = {}
     for axis, frequency, amplitude, phase in motion:
         w = 2 * np.pi * frequency
-        found[axis] = found.get(axis, calm[axis]) + amplitude * np.sin(w * time + phase)
+        channels[axis] = channels.get(axis, calm[axis]) + amplitude * np.sin(w * time + phase)
         if axis.startswith("omega_"):
             name = axis.replace("omega_", "omegadot_")
-            found[name] = found.get(name, calm[name]) + amplitude * w * np.cos(w * time + phase)
-    return found
+            channels[name] = channels.get(name, calm[name]) + amplitude * w * np.cos(w * time + phase)
+    return channels
 
 
 def _continue_channels(f: Fitted, samples: int) -> dict[str, Array]:
@@ -122,15 +122,15 @@ def _continue_channels(f: Fitted, samples: int) -> dict[str, Array]:
     """
     r = f.prepared[0].observation.record
     first = r.part(slice(0, min(len(r.time), samples)))
-    found = {name: np.zeros(samples) for name in MASS}  # a body is where it was put up
+    channels = {name: np.zeros(samples) for name in MASS}  # a body is where it was put up
     for name, x in first.channels.items():
         if is_disc_angle(name) or name in MASS:
             continue
         if name.partition("_")[0] in ("a", "omega", "omegadot", "Gamma"):
-            found[name] = np.full(samples, float(np.mean(x[first.valid])) if first.valid.any() else 0.0)
+            channels[name] = np.full(samples, float(np.mean(x[first.valid])) if first.valid.any() else 0.0)
         else:
-            found[name] = np.pad(x, (0, samples - len(x)), mode="edge")
-    return found
+            channels[name] = np.pad(x, (0, samples - len(x)), mode="edge")
+    return channels
 
 
 @dataclass(frozen=True)
@@ -169,10 +169,10 @@ class Knowledge:
         channels |= move_channels(channels, motion, time)
         r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
         r = replace(r, reading=None if r.reading is None else np.zeros(n))  # the model names it
-        made = replace(o, record=r, series=(np.zeros(n),) * len(o.series), name="motion", thin=None)
+        observation = replace(o, record=r, series=(np.zeros(n),) * len(o.series), name="motion", thin=None)
         at = replace(x.at, candidates=[x.at.candidates[k] for k in self.candidates])
 
-        white = x.noise.whiten(linearise(at, made)[:-1])
+        white = x.noise.whiten(linearise(at, observation)[:-1])
         if not unknown_gradient.is_unknown(o):
             return white
         gradient = unknown_gradient.make_splines(time, *r.carriers)[:, None] * o.signs[:, None]
@@ -182,20 +182,20 @@ class Knowledge:
 
 @one_thread
 def find_motion(
-    known: Knowledge, worth: Callable[[Array], float], tones: Sequence[Sinusoid], duration: float
+    knowledge: Knowledge, worth: Callable[[Array], float], tones: Sequence[Sinusoid], duration: float
 ) -> list[Sinusoid]:
     """One sinusoid about each axis: those whose R factor, once they have been flown for ``duration`` s, is worth most together."""
 
     def weigh(motion: Sequence[Sinusoid]) -> float:
-        return worth(known.fly(motion, duration))
+        return worth(knowledge.fly(motion, duration))
 
     of_axis = {axis: [t for t in tones if t[0] == axis] for axis in dict.fromkeys(t[0] for t in tones)}
-    chosen = {axis: max(own, key=lambda t: weigh([t])) for axis, own in of_axis.items()}
+    chosen = {axis: max(choices, key=lambda t: weigh([t])) for axis, choices in of_axis.items()}
     for _ in range(SWEEPS):
         before = dict(chosen)
-        for axis, own in of_axis.items():
+        for axis, choices in of_axis.items():
             others = [t for other, t in chosen.items() if other != axis]
-            chosen[axis] = max(own, key=lambda t: weigh([*others, t]))
+            chosen[axis] = max(choices, key=lambda t: weigh([*others, t]))
         if chosen == before:
             break
     return [*chosen.values()]
@@ -267,9 +267,9 @@ class Strength:
         return float(np.sqrt(squares)), float(np.sqrt(variance / squares) / 2)
 
 
-def estimate_strength(T: Array, own: Sequence[int], others: Sequence[int]) -> Strength:
-    """The coefficients of the columns ``own`` of an R factor T [columns | residual], marginal over the ``others``."""
-    R = _lower_block(T[:, [*others, *own, -1]], len(others))
+def estimate_strength(T: Array, columns: Sequence[int], others: Sequence[int]) -> Strength:
+    """The coefficients of the ``columns`` of an R factor T [columns | residual], marginal over the ``others``."""
+    R = _lower_block(T[:, [*others, *columns, -1]], len(others))
     U, s, V = np.linalg.svd(R[:, :-1], full_matrices=False)
     if not len(s) or not s[0] > 0.0:
         return Strength(np.zeros((T.shape[1] - 1, 0)), np.zeros(0), np.zeros(0))
@@ -277,11 +277,11 @@ def estimate_strength(T: Array, own: Sequence[int], others: Sequence[int]) -> St
     gain = np.outer(STRENGTHS, (s / s[0]) ** 2)  # information over the prior's, (strengths, directions)
     evidence = np.sum(y**2 * gain / (1 + gain) - np.log1p(gain), axis=1) / 2
     gain = gain[int(np.argmax(evidence))]
-    some = gain > DETERMINED
-    directions = np.zeros((T.shape[1] - 1, int(np.sum(some))))
-    directions[own] = V[some].T
-    shrunk = (gain / (1 + gain))[some]
-    return Strength(directions, shrunk * y[some] / s[some], np.sqrt(shrunk) / s[some])
+    determined = gain > DETERMINED
+    directions = np.zeros((T.shape[1] - 1, int(np.sum(determined))))
+    directions[columns] = V[determined].T
+    shrunk = (gain / (1 + gain))[determined]
+    return Strength(directions, shrunk * y[determined] / s[determined], np.sqrt(shrunk) / s[determined])
 
 
 def _lower_block(rows: Array, first: int) -> Array:
@@ -302,26 +302,26 @@ class Alternatives:
     ) -> Alternatives:
         """Of pairs (found effect, rival); ``both``: and of (rival, effect), as it may be either."""
         pairs = [(e, r) for e, r in pairs if e in problem.candidates and r in problem.candidates]
-        found = dict.fromkeys(e for e, _ in pairs)
+        claims = dict.fromkeys(e for e, _ in pairs)
         asked = dict.fromkeys([*pairs, *((r, e) for e, r in pairs if both)])
         named = {e: [n for n, _ in problem.candidates[e]] for pair in asked for e in pair}
-        needed = sorted({n for own in named.values() for n in own})
-        known = Knowledge.of(f, needed)
+        needed = sorted({n for columns in named.values() for n in columns})
+        knowledge = Knowledge.of(f, needed)
         place = {n: f.n_base + k for k, n in enumerate(needed)}
         T = f.whole[:, [*range(f.n_base), *(f.n_base + n for n in needed), -1]]
 
         def nuisance(effects: Sequence[str]) -> list[int]:
             return [*range(f.n_base), *(place[n] for e in effects for n in named[e])]
 
-        made = {}
+        strengths = {}
         for e, r in asked:
             # a rival takes the place of the effect that was found, beside what else was found
-            without = [x for x in found if x != e and (e in found or x != r)]
-            own = [place[n] for n in problem.testable(e)]
-            strength = estimate_strength(T, own, nuisance(without))
-            others = nuisance([r, *(x for x in found if x not in (e, r))])
-            made[e, r] = strength, tuple(others)
-        return Alternatives(known, made)
+            without = [x for x in claims if x != e and (e in claims or x != r)]
+            tested = [place[n] for n in problem.testable(e)]
+            strength = estimate_strength(T, tested, nuisance(without))
+            others = nuisance([r, *(x for x in claims if x not in (e, r))])
+            strengths[e, r] = strength, tuple(others)
+        return Alternatives(knowledge, strengths)
 
     def separations(self, R: Array) -> list[tuple[float, float]]:
         """Of every pair its separation and the spread, by an R factor of the known columns."""
@@ -355,12 +355,12 @@ def propose_motions(
     spin = abs(first.spin_frequency) or AT_REST
     tones = list_tones(spin, limits, (0.0, HIGHEST * first.rate))
     still, *moving = (asked.separations(asked.known.fly(t, DURATION)) for t in ([], *([t] for t in tones)))
-    found = []
+    proposals = []
     for n in range(len(asked.pairs)):
         best = max(range(len(tones)), key=lambda m: moving[m][n][0], default=None)
         if best is not None and moving[best][n][0] > WORTHWHILE * still[n][0]:
             axis, frequency, amplitude, _ = tones[best]
             s, unit = asked.promise([tones[best]], DURATION)[n], find_unit(axis)
             motion = (axis, frequency / spin, frequency, amplitude, unit, DURATION)
-            found.append(Proposal(s.effect, s.rival, *motion, s.now, s.then, s.spread))
-    return found
+            proposals.append(Proposal(s.effect, s.rival, *motion, s.now, s.then, s.spread))
+    return proposals

@@ -202,13 +202,13 @@ def choose(s: Scores) -> Omnibus:
     steady = pursue(s)
     others = [t for t in (_find_varying(s), _find_line(s)) if t is not None]
     log_p = min([steady.log_p, *(p for p, _ in others)])
-    significant = [(p, found) for p, found in others if p < np.log(FAMILY)]
-    found = tuple(f for _, f in sorted(significant, key=lambda x: x[0]))
-    varying = tuple(f for f in found if f.kind == "varying")
+    significant = [(p, t) for p, t in others if p < np.log(FAMILY)]
+    terms = tuple(f for _, f in sorted(significant, key=lambda x: x[0]))
+    varying = tuple(f for f in terms if f.kind == "varying")
     steady = replace(steady, log_p=log_p, steady=steady.terms, varying=varying)
     if steady.terms or not significant:
         return steady
-    return replace(steady, terms=found, chi2=max(f.chi2 for f in found))
+    return replace(steady, terms=terms, chi2=max(f.chi2 for f in terms))
 
 
 def _find_varying(s: Scores) -> tuple[float, ResidualTerm] | None:
@@ -220,10 +220,10 @@ def _find_varying(s: Scores) -> tuple[float, ResidualTerm] | None:
     size = s.dictionary.size(term)
     mean_square = v.coefficient**2 * float(s.raw[1][v.place]) / max(s.samples, 1)
     z = float(np.sqrt(v.chi2))
-    found = ResidualTerm(
+    varying = ResidualTerm(
         term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying", v.how, rank=v.rank
     )
-    return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
+    return min(0.0, v.log_p - float(np.log(SHARES[1]))), varying
 
 
 def _find_line(s: Scores) -> tuple[float, ResidualTerm] | None:
@@ -256,28 +256,28 @@ def pursue(s: Scores, tried: int = 0) -> Omnibus:
     if first >= np.log(FAMILY):
         return nothing
     places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, int(np.sum(np.isfinite(norm))))]
-    sober, known = np.ones(len(places)), np.full(len(places), freedom)
+    sober, degrees = np.ones(len(places)), np.full(len(places), freedom)
     if s.prepared.noise.uneven:
         scatter = s.measure_scatter(places)
-        sober, known = np.sqrt(scatter.inflation), np.minimum(freedom, scatter.freedom)
-        first = _log_p(z[places] / sober, tried, known)
+        sober, degrees = np.sqrt(scatter.inflation), np.minimum(freedom, scatter.freedom)
+        first = _log_p(z[places] / sober, tried, degrees)
         if first >= np.log(FAMILY):
             return replace(nothing, log_p=first)
     G = s.gram(places) / np.outer(norm[places], norm[places])
     order = np.array([s.dictionary.terms[k].order for k in places])
-    taken = list(_pursue(z[places], sober, G, order, lambda x: _log_p(x, tried, known)))
+    taken = list(_pursue(z[places], sober, G, order, lambda x: _log_p(x, tried, degrees)))
     if not taken:
         return replace(nothing, log_p=first)
     # together the terms take so much of each, in whitened units, and with it what of each the columns explain
-    own = [k for k, *_ in taken]
-    gram, scores = G[np.ix_(own, own)], z[places[own]]
-    each = np.linalg.lstsq(gram, scores, rcond=None)[0] / norm[places[own]]
-    along = s.along[places[own]]
-    explained = s.projector.explained(along / norm[places[own], None], gram, scores)
+    picked = [k for k, *_ in taken]
+    gram, scores = G[np.ix_(picked, picked)], z[places[picked]]
+    each = np.linalg.lstsq(gram, scores, rcond=None)[0] / norm[places[picked]]
+    along = s.along[places[picked]]
+    explained = s.projector.explained(along / norm[places[picked], None], gram, scores)
     return replace(
         nothing,
         log_p=first,
-        terms=tuple(_as_term(s, int(places[k]), *found) for k, *found in taken),
+        terms=tuple(_as_term(s, int(places[k]), *numbers) for k, *numbers in taken),
         chi2=sum(amount**2 for _, _, amount, _ in taken),
         explained=tuple(float(x) for x in explained),
         shift=-s.projector.to_basis @ (along.T @ each),
@@ -357,24 +357,24 @@ def search_residual(f: Fitted, only: int | None = None) -> Remainder:
 
 
 def search(
-    f: Fitted, given: Sequence[int], random: Mapping[str, int], only: int | None = None
+    f: Fitted, extra: Sequence[int], random: Mapping[str, int], only: int | None = None
 ) -> tuple[Remainder, dict[str, Test]]:
-    """The same with ``given`` candidate columns, and the tests of ``random`` effects, of which it has the places of their columns."""
+    """The same with ``extra`` candidate columns, and the tests of ``random`` effects, of which it has the places of their columns."""
     searches, sums = [], []
     for flight in range(len(f.prepared)):
-        lean, projector, places = project_out(f, flight, given, [*random.values()])
+        lean, projector, places = project_out(f, flight, extra, [*random.values()])
         scores = Scores(lean, projector, only)
-        sums += scores.collect(lambda piece, y, own=places: [sum_variances(piece, k, y) for k in own])  # type: ignore[misc]
+        sums += scores.collect(lambda piece, y, columns=places: [sum_variances(piece, k, y) for k in columns])  # type: ignore[misc]
         searches.append(choose(scores))
-    tests = {e: test_variance(np.sum([own[n] for own in sums], axis=0)) for n, e in enumerate(random)}
+    tests = {e: test_variance(np.sum([row[n] for row in sums], axis=0)) for n, e in enumerate(random)}
     return Remainder(tuple(searches)), tests
 
 
 def project_out(
-    f: Fitted, flight: int, given: Sequence[int], further: Sequence[int] = ()
+    f: Fitted, flight: int, extra: Sequence[int], further: Sequence[int] = ()
 ) -> tuple[PreparedFlight, Projector, list[int]]:
-    """A flight of a fit, what projects base and ``given`` candidate columns out of it, and where it has ``further`` columns."""
-    projector = whitening.make_projector(f.r_factors[flight], f.n_base, given, f.to_nominal)
+    """A flight of a fit, what projects base and ``extra`` candidate columns out of it, and where it has ``further`` columns."""
+    projector = whitening.make_projector(f.r_factors[flight], f.n_base, extra, f.to_nominal)
     return projector.lean(f.prepared[flight], further)
 
 

@@ -29,36 +29,36 @@ Steps = Mapping[str, int]  # the first sample after each step
 
 
 def add_steps(
-    f: Fitted, known: Steps = MappingProxyType({})
+    f: Fitted, starts: Steps = MappingProxyType({})
 ) -> tuple[ProjectedProblem, Fitted, dict[str, float]]:
     """The problem of all candidates, the fit in which the columns of each step begin at its most likely instant, and these instants by
     effect, s.
 
-    Once a step is significant, and so its instant ``known``, the noise is estimated again, and everything with it.
+    Of significant steps the first samples are in ``starts``: with each of these the noise is estimated again, and everything with it.
     """
     available = list_testable(f)
     kinds = [e.id for e in f.model.candidates if e.kind == "step"]
-    columns = {e: own for e, own in group_by_effect(f.candidates).items() if e in kinds}
+    columns = {e: group for e, group in group_by_effect(f.candidates).items() if e in kinds}
     if len(f.flights) != 1 or not columns:
         return make_problem(f), f, {}
-    known = {e: _sharpen(f, sample, columns[e]) for e, sample in known.items()}
-    if known:  # made anew from these samples on, and put through the filter
-        prepared = tuple(x.with_steps(_list_instants(f, known)) for x in f.prepared)
+    starts = {e: _sharpen(f, sample, columns[e]) for e, sample in starts.items()}
+    if starts:  # made anew from these samples on, and put through the filter
+        prepared = tuple(x.with_steps(_list_instants(f, starts)) for x in f.prepared)
         r_factors, sums = zip(*(whitening.factor_blocks(x) for x in prepared), strict=True)
         f = replace(f, prepared=prepared, r_factors=r_factors, sums=sums)
     edges = [int(k) for k in f.prepared[0].edges[1:-1]]
-    likeliest = _find_best_edges(f, f.r_factors, edges, {e: c for e, c in columns.items() if e not in known})
+    likeliest = _find_best_edges(f, f.r_factors, edges, {e: c for e, c in columns.items() if e not in starts})
     begun = _zero_before(f, likeliest, columns)
     problem = make_problem(begun, [*available, *columns])
     # samples do not judge a step yet: one that is in the noise makes it uneven
-    found = [e for e in selection.choose(replace(problem, flights=())) if e in likeliest]
-    if found:
-        refined = {e: _refine(f, likeliest[e], columns[e]) for e in found}
-        known = {**known, **{e: _sharpen(f, sample, columns[e]) for e, sample in refined.items()}}
-        instants = _list_instants(f, known)
+    effects = [e for e in selection.choose(replace(problem, flights=())) if e in likeliest]
+    if effects:
+        refined = {e: _refine(f, likeliest[e], columns[e]) for e in effects}
+        starts = {**starts, **{e: _sharpen(f, sample, columns[e]) for e, sample in refined.items()}}
+        instants = _list_instants(f, starts)
         noise = [estimate_noise(replace(x.at, instants=instants), x.observation) for x in f.prepared]
-        return add_steps(fit(f.model, f.instrument, f.observations, noise, f.calibration.p), known)
-    instants = _list_instants(f, {**known, **likeliest})
+        return add_steps(fit(f.model, f.instrument, f.observations, noise, f.calibration.p), starts)
+    instants = _list_instants(f, {**starts, **likeliest})
     prepared = tuple(x.with_steps(instants) for x in f.prepared)
     tests = replace(problem, flights=prepared if problem.flights else ())
     return tests, replace(begun, prepared=prepared), instants
@@ -71,13 +71,13 @@ def _list_instants(f: Fitted, steps: Steps) -> dict[str, float]:
 
 def _zero_before(f: Fitted, steps: Steps, columns: Columns) -> Fitted:
     """The fit with R factors and sums in which the columns of steps are zero in the blocks of time before them."""
-    sums = tuple(own.copy() for own in f.sums)
-    r_factors = tuple(tuple(t.copy() for t in own) for own in f.r_factors)
+    sums = tuple(total.copy() for total in f.sums)
+    r_factors = tuple(tuple(t.copy() for t in factors) for factors in f.r_factors)
     for e, sample in steps.items():
         places = [f.n_base + n for n, _ in columns[e]]
         for block in np.flatnonzero(f.prepared[0].edges[:-1] < sample):
-            for own, factors in zip(sums, r_factors, strict=True):
-                own[block, places] = 0.0
+            for total, factors in zip(sums, r_factors, strict=True):
+                total[block, places] = 0.0
                 factors[block][:, places] = 0.0
     return replace(f, r_factors=r_factors, sums=sums)
 
@@ -86,8 +86,8 @@ def _find_best_edges(
     f: Fitted, r_factors: Sequence[Sequence[Array]], edges: Sequence[int], columns: Columns
 ) -> dict[str, int]:
     """For each step the edge between two segments of time, each with an R factor of every output, from which on it explains most."""
-    k, own = f.n_base, [c for each in columns.values() for c in each]
-    m, others = len(own), [*(k + n for n, _ in own), -1]
+    k, pairs = f.n_base, [c for each in columns.values() for c in each]
+    m, others = len(pairs), [*(k + n for n, _ in pairs), -1]
     picked = [fold([pick_columns(t, k, others) for t in each]) for each in zip(*r_factors, strict=True)]
     # The segments after an edge count with the steps' columns, those before it without; the prior in them.
     after: list[Array] = [np.pad(make_prior(range(k), k + m + 1, f.to_nominal), ((0, m + 1), (0, 0)))]
@@ -127,13 +127,13 @@ def _refine(f: Fitted, sample: int, columns: Sequence[tuple[int, Column]]) -> in
         cuts = np.array([0, *edges, length])
         r_factors: list[Array] = [np.zeros((len(places) + 1, len(places) + 1))] * (len(cuts) - 1)
 
-        def cut(piece: Piece, own: Sequence[int], cuts: NDArray[np.intp] = cuts) -> list[tuple[int, Array]]:
-            X = piece.white[[*own, -1]]
+        def cut(piece: Piece, rows: Sequence[int], cuts: NDArray[np.intp] = cuts) -> list[tuple[int, Array]]:
+            X = piece.white[[*rows, -1]]
             which = np.searchsorted(cuts, piece.sample, side="right") - 1
             return [(int(k), compute_r_factor(X[:, which == k])) for k in np.unique(which)]
 
-        for x, own in flights:
-            for parts in x.each(partial(cut, own=own)):
+        for x, rows in flights:
+            for parts in x.each(partial(cut, rows=rows)):
                 for k, T in parts:
                     r_factors[k] = join([r_factors[k], T])
         sample = _find_best_edges(f, [r_factors], edges.tolist(), moved)[""]
@@ -158,7 +158,7 @@ def _sharpen(f: Fitted, sample: int, columns: Sequence[tuple[int, Column]]) -> i
     length = len(f.observations[0].record.time)
     if length > ROWS:
         return sample
-    everything = [t for own in f.r_factors for t in own]
+    everything = [t for factors in f.r_factors for t in factors]
     projector = whitening.make_projector(everything, f.n_base, ())
     places = [f.n_base + n for n, _ in columns]
     pieces = [p for x in f.prepared for p in x.each(lambda p: p)]
@@ -166,7 +166,7 @@ def _sharpen(f: Fitted, sample: int, columns: Sequence[tuple[int, Column]]) -> i
     y = np.concatenate([projector.left(p, Q) for p, Q in zip(pieces, bases, strict=True)])
     Q = np.concatenate(bases)
 
-    def explained(at: int) -> float:
+    def measure_gain(at: int) -> float:
         X = np.concatenate(
             [_begin_columns(p, x, at, places) for p, x in zip(pieces, f.prepared, strict=True)], axis=1
         )
@@ -181,13 +181,13 @@ def _sharpen(f: Fitted, sample: int, columns: Sequence[tuple[int, Column]]) -> i
     reach = max(1, length // BLOCKS)
     # the filter of a noise that has the step in it makes a spike of its edge, which a coarse search passes by
     low, high = _limit_search(sample, POINTS, length)
-    known = {at: explained(at) for at in range(low, high + 1)}
+    gains = {at: measure_gain(at) for at in range(low, high + 1)}
     while True:
         spacing = max(1, reach // POINTS)
         low, high = _limit_search(sample, reach, length)
         for at in range(low, high + 1, spacing):
-            known.setdefault(at, explained(at))
-        sample = max(known, key=lambda at: (known[at], -at))
+            gains.setdefault(at, measure_gain(at))
+        sample = max(gains, key=lambda at: (gains[at], -at))
         if spacing == 1:
             return sample
         reach = spacing
@@ -197,10 +197,10 @@ def _begin_columns(piece: Piece, prepared: PreparedFlight, at: int, places: Sequ
     """(places, rows): columns of a whole flight from a sample on, whitened; those of other outputs' accelerometers are zero."""
     columns = piece.columns[list(places)]
     columns[:, :, :at] = 0.0
-    own = columns.any(axis=(1, 2))
+    nonzero = columns.any(axis=(1, 2))
     r, noise = piece.observation.record, prepared.noise
-    X = noise.whiten(columns[own], r.valid, noise.level.of(r.quantity))
+    X = noise.whiten(columns[nonzero], r.valid, noise.level.of(r.quantity))
     unknown_gradient.project(X, piece.windows)
-    found = np.zeros((len(columns), X.shape[1]))
-    found[own] = X
-    return found
+    whitened = np.zeros((len(columns), X.shape[1]))
+    whitened[nonzero] = X
+    return whitened

@@ -47,24 +47,24 @@ class Conclusion:
         return self.verdict in ("unexplained", "partly-explained")
 
     @staticmethod
-    def of(found: Evidence, output: Sequence[str], *, apart: bool) -> Conclusion:
+    def of(evidence: Evidence, output: Sequence[str], *, apart: bool) -> Conclusion:
         """Judge what the search has found; ``output``: what the recorder did."""
-        chosen, line, steady = _without_lines(found)
-        base = omnibus.search_residuals(found.first.fitted) if chosen.effects else []
-        count = found.first.problem.count + len(chosen.random)
-        compare = partial(_compare_with_terms, found, base, count)
-        outcome, weak = (chosen, []) if apart else _drop_unfounded(found, chosen)
+        chosen, line, steady = _without_lines(evidence)
+        base = omnibus.search_residuals(evidence.first.fitted) if chosen.effects else []
+        count = evidence.first.problem.count + len(chosen.random)
+        compare = partial(_compare_with_terms, evidence, base, count)
+        outcome, weak = (chosen, []) if apart else _drop_unfounded(evidence, chosen)
         before = compare(chosen)
         lead = before if outcome is chosen else compare(outcome)
         while not (lead.claims or outcome.remains) and len(outcome.effects) > 1:
             # generic terms do as well as all of these, but perhaps not as well as those without the weakest
-            weakest, _ = _find_weakest(found, outcome)
-            less = found.without(outcome, weakest)
+            weakest, _ = _find_weakest(evidence, outcome)
+            less = evidence.without(outcome, weakest)
             if less.remains:
                 break
             outcome, weak = less, [*weak, weakest]
             lead = compare(outcome)
-        one = _find_better_kind(found, outcome) if lead.claims else None
+        one = _find_better_kind(evidence, outcome) if lead.claims else None
         left = outcome.remainder if line is None else line.within(outcome.remainder)
         random = _list_random(outcome, count)
         doubted = apart or outcome.explained.complaint is not None
@@ -88,7 +88,7 @@ class Conclusion:
             left=left,
             line=line,
             steady=tuple(s for s in steady if s.effect in claimed),
-            open=_list_unsure(found.last, weak, claimed),
+            open=_list_unsure(evidence.last, weak, claimed),
             share=float(expit(before.ahead)),
             rival=rival,
             one=None if claimed else one,
@@ -107,16 +107,16 @@ class Conclusion:
             comparison.describe_disturbance(self.outcome.target),
         ]
         remarks = [Reason(text, kind="remark") for text in texts if text is not None]
-        found = []
+        reasons = []
         if self.claims:
             verb, how = "is" if len(self.claims) == 1 else "are", "certain" if self.remains else "missing"
-            found.append(Reason(f"{join_names(self.claims)} {verb} {how}", kind="verdict"))
+            reasons.append(Reason(f"{join_names(self.claims)} {verb} {how}", kind="verdict"))
         if self.remains:
-            found += self._left()
-        if found and self.open:
+            reasons += self._left()
+        if reasons and self.open:
             names = join_names(self.open[:3], "or")
-            found.append(Reason(f"the record is not sufficient to decide whether {names} is also present"))
-        return [*found, *remarks]
+            reasons.append(Reason(f"the record is not sufficient to decide whether {names} is also present"))
+        return [*reasons, *remarks]
 
     def _left(self) -> list[Reason]:
         """What remains, in words."""
@@ -128,29 +128,29 @@ class Conclusion:
         if self.rival:
             generic = f"a generic term, {terms[0]}" if terms else "generic terms"
             return [Reason(f"{join_names(o.effects)} would explain it no better than {generic}")]
-        found = [] if o.complaint is None else [Reason(o.complaint)]
+        reasons = [] if o.complaint is None else [Reason(o.complaint)]
         noise = "the residual is more than noise by all generic terms together, none of which stands out"
         if terms:
             noise = f"the residual is more than noise, mostly {terms[0]}"
         elif o.exceeds_noise:
             rms = o.scored.whole.rms_Eo
             noise = f"the residual, {rms:.3g} Eo, is more than the noise of {o.noise_floor:.3g} Eo"
-        return [*found, Reason(noise, kind="verdict")] if terms or not found else found
+        return [*reasons, Reason(noise, kind="verdict")] if terms or not reasons else reasons
 
 
 OPEN = 0.1  # p-value from which an effect is named as one for which the record does not suffice
 
 
-def _without_lines(found: Evidence) -> tuple[Outcome, LineAlternative | None, tuple[Steady, ...]]:
+def _without_lines(evidence: Evidence) -> tuple[Outcome, LineAlternative | None, tuple[Steady, ...]]:
     """The outcome without the effects in whose place a line near a multiple of the spin rate does as well; that line, and those effects
     that are no more than a line at the multiple.
     """
-    outcome = found.outcome
-    line, steady = find_line_rival(found.steps, found.last)
+    outcome = evidence.outcome
+    line, steady = find_line_rival(evidence.steps, evidence.last)
     if line is None or not line.better(outcome.remainder):
         return outcome, None, steady
     for e in line.effects:
-        outcome = found.without(outcome, e) if e in outcome.effects else outcome
+        outcome = evidence.without(outcome, e) if e in outcome.effects else outcome
     return outcome, line, steady
 
 
@@ -160,18 +160,18 @@ def _list_random(o: Outcome, count: int) -> list[str]:
     return [e for _, e in sorted((t.log_p, e) for t, e in tests)]
 
 
-def _drop_unfounded(found: Evidence, o: Outcome) -> tuple[Outcome, list[str]]:
+def _drop_unfounded(evidence: Evidence, o: Outcome) -> tuple[Outcome, list[str]]:
     """The outcome without the effects that are not significant beside the others, and these, in the order in which they went."""
     weak: list[str] = []
     while o.effects:
-        e, log_p = _find_weakest(found, o)
-        if _is_significant(found, o, log_p):
-            other = _find_contradicted(o, found.first) or _find_unfitted(found, o)
+        e, log_p = _find_weakest(evidence, o)
+        if _is_significant(evidence, o, log_p):
+            other = _find_contradicted(o, evidence.first) or _find_unfitted(evidence, o)
             if other is None:
                 break
             e = other
         weak.append(e)
-        o = found.without(o, e)
+        o = evidence.without(o, e)
     return o, weak
 
 
@@ -182,26 +182,26 @@ def _list_unsure(last: Stage, weak: Sequence[str], claimed: Sequence[str]) -> tu
     return tuple(dict.fromkeys(e for e in (*weak, *(e for _, e in near)) if e not in claimed))
 
 
-def _find_weakest(found: Evidence, o: Outcome) -> tuple[str, float]:
+def _find_weakest(evidence: Evidence, o: Outcome) -> tuple[str, float]:
     """The least significant effect, and the logarithm of its p-value."""
-    log_p, effect = max((_measure_log_p(found, o, e), e) for e in o.effects)
+    log_p, effect = max((_measure_log_p(evidence, o, e), e) for e in o.effects)
     return effect, log_p
 
 
-def _measure_log_p(found: Evidence, o: Outcome, effect: str) -> float:
+def _measure_log_p(evidence: Evidence, o: Outcome, effect: str) -> float:
     """Of an effect, with the variance of its own scores: by a linear test, or, where that may be wrong, by a fit without it.
 
     Far from there a linearisation may be wrong about what it explains. The effects of the last stage were tested beside the sheet as
     it was then: if that proves less sure, each competes with one still less sure.
     """
     s = o.regression.significance(effect)
-    log_p = found.test(effect).log_p if effect in found.last.chosen else None
+    log_p = evidence.test(effect).log_p if effect in evidence.last.chosen else None
     linear = 0.0
     if not (o.widened and log_p is not None):
         linear = _compare_with_strongest(o, s, s.log_p(log_p, doubted=o.remainder.significant))
-        if _is_significant(found, o, linear):
+        if _is_significant(evidence, o, linear):
             return linear
-    by_fit = replace(s, chi2=max(0.0, found.gain(o, effect)))
+    by_fit = replace(s, chi2=max(0.0, evidence.gain(o, effect)))
     return min(linear, _compare_with_strongest(o, by_fit, by_fit.log_p(None, doubted=True)))
 
 
@@ -211,9 +211,9 @@ def _compare_with_strongest(o: Outcome, s: Significance, log_p: float) -> float:
     return 0.0 if s.chi2 - s.rank < claims.MORE * max(left, default=-np.inf) else log_p
 
 
-def _is_significant(found: Evidence, o: Outcome, log_p: float) -> bool:
+def _is_significant(evidence: Evidence, o: Outcome, log_p: float) -> bool:
     level = selection.FAMILY if len(o.effects) == 1 else selection.FURTHER
-    return found.first.problem.significant(Test(0.0, 1, log_p, ()), level)
+    return evidence.first.problem.significant(Test(0.0, 1, log_p, ()), level)
 
 
 def _find_contradicted(o: Outcome, first: Stage) -> str | None:
@@ -224,9 +224,9 @@ def _find_contradicted(o: Outcome, first: Stage) -> str | None:
     return worst if worst is not None and speaks[worst] < -DISTINGUISHABLE else None
 
 
-def _find_unfitted(found: Evidence, o: Outcome) -> str | None:
+def _find_unfitted(evidence: Evidence, o: Outcome) -> str | None:
     """The least significant effect of a fit that has not converged."""
-    log_p = {} if o.complaint is None else {e: found.test(e).log_p for e in o.effects}
+    log_p = {} if o.complaint is None else {e: evidence.test(e).log_p for e in o.effects}
     return max(log_p, key=lambda e: (log_p[e], e), default=None)
 
 
@@ -242,12 +242,12 @@ class Lead:
     claims: tuple[str, ...]
 
 
-def _compare_with_terms(found: Evidence, base: Sequence[Remainder], count: int, o: Outcome) -> Lead:
+def _compare_with_terms(evidence: Evidence, base: Sequence[Remainder], count: int, o: Outcome) -> Lead:
     """An outcome's effects, chosen of so many, with as many generic terms in searches of the residual of the model without effects."""
     if not o.effects:
         return Lead(0.0, 0, np.inf, ())
-    chi2, rank = found.explained(o)
-    charge = len(o.effects) * float(np.log(count)) + found.charge(o)
+    chi2, rank = evidence.explained(o)
+    charge = len(o.effects) * float(np.log(count)) + evidence.charge(o)
     ahead = _measure_lead(o, base, chi2, rank, charge)
     if o.remains:
         more = chi2 - rank > claims.MORE * claims.find_best_single(base)
@@ -266,16 +266,16 @@ def _measure_lead(o: Outcome, base: Sequence[Remainder], chi2: float, rank: int,
     return weigh(chi2, rank, charge, spread) - terms
 
 
-def _find_better_kind(found: Evidence, o: Outcome) -> str | None:
+def _find_better_kind(evidence: Evidence, o: Outcome) -> str | None:
     """The effect that explains plainly more than all of an outcome's effects, of those that are not searched for and of which one of
     these, or what cannot be told from it, is a special case.
     """
-    others = found.alternatives()
-    own = {x for e in o.effects for x in (e, *others.get(e, ()))}
+    others = evidence.alternatives()
+    names = {x for e in o.effects for x in (e, *others.get(e, ()))}
     # those that are searched for have been compared themselves
-    kinds = (e for e in found.first.fitted.model.candidates if not e.searched)
-    cases = (e.id for e in kinds if not own.isdisjoint((e.id, *e.contains)))
-    return next((k for k in cases if found.weigh_instead(o, k) > DISTINGUISHABLE), None)
+    kinds = (e for e in evidence.first.fitted.model.candidates if not e.searched)
+    cases = (e.id for e in kinds if not names.isdisjoint((e.id, *e.contains)))
+    return next((k for k in cases if evidence.weigh_instead(o, k) > DISTINGUISHABLE), None)
 
 
 def _find_shared_term(chi2: float, base: Sequence[Remainder]) -> ResidualTerm | None:

@@ -74,10 +74,10 @@ def test_noise_about_the_carrier_is_resolved() -> None:
 def test_a_jump_to_which_slow_columns_bend_is_found() -> None:
     y = np.random.default_rng(5).normal(size=N) + 2.0 * (np.arange(N) / RATE >= 113.0)
     left = fit_columns(np.vstack([powers(9), y]), ALL, RATE, None)
-    assert [d.kind for d in left.found] == ["jump"]
-    assert left.found[0].at == pytest.approx(113.0, abs=1.0)
+    assert [d.kind for d in left.events] == ["jump"]
+    assert left.events[0].at == pytest.approx(113.0, abs=1.0)
     assert np.std(left.rest) == pytest.approx(1.0, rel=0.05)
-    assert "jumps at 113 s" in str(describe_disturbances(left.found))
+    assert "jumps at 113 s" in str(describe_disturbances(left.events))
 
 
 def test_a_jump_beside_an_unknown_gradient_leaves_nothing_of_its_edge() -> None:
@@ -91,7 +91,7 @@ def test_a_jump_beside_an_unknown_gradient_leaves_nothing_of_its_edge() -> None:
 
     y = np.random.default_rng(6).normal(size=N) + 30.0 * (time >= 113.0)
     left = fit_columns(through(np.vstack([np.ones(N), y])), ALL, RATE, (0.44, 0.56), through)
-    assert [(d.kind, d.at) for d in left.found] == [("jump", 113.0)]
+    assert [(d.kind, d.at) for d in left.events] == [("jump", 113.0)]
     assert np.std(left.rest) == pytest.approx(1.0, rel=0.03)
 
 
@@ -111,7 +111,7 @@ def test_noise_is_left_as_it_is(slope: float) -> None:
         assert np.array_equal(cut_lines(p[LOWEST:-1]), p[LOWEST:-1])
         assert find_lines(x, RATE, None) == []
         if slope < 2.0:
-            assert not fit_columns(np.stack([np.ones(LONG), x]), np.ones(LONG, dtype=bool), RATE, None).found
+            assert not fit_columns(np.stack([np.ones(LONG), x]), np.ones(LONG, dtype=bool), RATE, None).events
 
 
 def test_a_gap_holds_what_the_noise_makes_most_likely() -> None:
