@@ -77,7 +77,7 @@ RULES = (
          "quiet line, quiet mains, outside white", {"estimation.spectrum.find_lines": lambda *a: []}),
     Rule("noise-level", "the noise's level follows time, motion or angle",
          "quiet ramp, quiet along-axes, quiet with-ax, quiet with-size, quiet cyclic, ten along-axes, ten ramp",
-         {"estimation.noise_estimate._level": lambda *a: Level()}),
+         {"estimation.noise_estimate._choose_level": lambda *a: Level()}),
     Rule("uneven", "where the level changes, tests are tempered by the variance of their scores",
          "quiet red-along-axes, quiet size-and-temperature, quiet heavy-with-size, quiet amplifier, ten along-axes, five with-size",
          {"identification.likelihood_ratio.temper_test": _first,

@@ -129,7 +129,7 @@ class _Task:
         if all(scale_factor(self.model, p, place) > 0.0 for place in sums):
             point, r_factors = LinearisationPoint(self.model, p, self.columns), []
             for o, (noise, spanned) in zip(self.observations, weights, strict=True):
-                for T, count, part in pass_over(point, o, noise, _r_factor, spanned=spanned):
+                for T, count, part in pass_over(point, o, noise, _reduce_piece, spanned=spanned):
                     r_factors.append(T)
                     rows += count
                     sums[o.place] += part
@@ -196,7 +196,7 @@ def fit(
     )
 
 
-def _r_factor(piece: Piece) -> tuple[Array, int, Array]:
+def _reduce_piece(piece: Piece) -> tuple[Array, int, Array]:
     return piece.r_factor(), piece.white.shape[1], piece.sums()
 
 

@@ -107,7 +107,7 @@ def estimate_noise(
         parts = _fit_segments(at, o, apart, chosen)
     means = average_residuals(at, o, _make_unit_noise(o, apart)) if slow else None
     noise = _estimate_spectra(parts, o, CONSTANT, means)
-    level = _level(parts, o, noise)
+    level = _choose_level(parts, o, noise)
     if (
         level.parts
     ):  # what is loud has been in the fit: of what is quiet columns have left more than the noise
@@ -334,7 +334,7 @@ def _estimate_of_channels(at: LinearisationPoint, o: Observation) -> NoiseModel:
     return replace(white, filters=(np.array([np.sqrt(more) / sigma]),), freedom=freedom)
 
 
-def _level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
+def _choose_level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> Level:
     """Estimate the noise level from sample to sample."""
     z = [noise.whiten(np.stack([x.series for x in p.outputs])[None], p.valid)[0] for p in parts]
     # neighbours are alike where a part of the band has hardly any noise

@@ -136,7 +136,7 @@ def estimate(
     x = np.log(f)
     grid = np.linspace(x[0] - BELOW, x[-1], 513)
     near = np.abs(np.clip(grid, x[0], x[-1])[:, None] - x[None, :]) < SMOOTH
-    hump = np.any(_hats(np.exp(grid), humps), axis=1)
+    hump = np.any(_make_hats(np.exp(grid), humps), axis=1)
     near[hump] = np.abs(np.exp(grid[hump])[:, None] - f[None, :]) < APART
     spread = 1 / np.sqrt(np.maximum(near @ count, 1.0))
     model = Spectrum(rate, grid, log_density(np.exp(grid)), spread)
@@ -157,7 +157,7 @@ def _list_humps(spin: float | None) -> list[tuple[float, ...]]:
     return [()] if spin is None else [(), (spin,), (2 * spin,), (spin, 2 * spin)]
 
 
-def _hats(f: Array, humps: Sequence[float]) -> Array:
+def _make_hats(f: Array, humps: Sequence[float]) -> Array:
     """(n, HATS for each): hat functions of the distance from the humps, Hz; of near ones they are narrower."""
     apart = min(APART, 0.32 * humps[0]) if humps else APART
     away = [np.abs(f - h) / apart for h in humps]
@@ -167,7 +167,7 @@ def _hats(f: Array, humps: Sequence[float]) -> Array:
 
 def _leave_out_humps(humps: Sequence[float], f: Array, band: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Those of some of the frequencies (n,) that are outside the humps, if that is most of them."""
-    beside = band & ~np.any(_hats(f, humps), axis=1)
+    beside = band & ~np.any(_make_hats(f, humps), axis=1)
     return beside if 2 * np.sum(beside) > np.sum(band) else band
 
 
@@ -201,7 +201,7 @@ def _fit_correction(
         centre = np.array([np.mean(knots[k + 1 : k + 4]) for k in range(size)])
         held[centre > scale(np.array(dense / (2 * FINE)))] = LOOSE
     penalty = 20.0 * (roughness.T * held[1:-1]) @ roughness + 2.0 * np.diag(held)
-    hats = _hats(f, humps)
+    hats = _make_hats(f, humps)
     X = np.hstack([X, hats])
     penalty = linalg.block_diag(penalty, FREE * np.eye(hats.shape[1]))
     # the search begins near its end
@@ -219,7 +219,7 @@ def _fit_correction(
 
     def log_density(g: Array) -> Array:
         near = np.clip(g, f[0], f[-1])
-        return np.asarray(np.log(base(g)) + spline(scale(near)) + _hats(near, humps) @ over)
+        return np.asarray(np.log(base(g)) + spline(scale(near)) + _make_hats(near, humps) @ over)
 
     return cost + X.shape[1] * float(np.log(len(f))), log_density
 

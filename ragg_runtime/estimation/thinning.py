@@ -163,14 +163,14 @@ def _find_most(at: LinearisationPoint, o: Observation) -> int:
     pieces = [o.part(slice(rows.start, min(rows.start + EXCERPT, rows.stop))) for rows in chosen]
     whole = [linearise(at, _count_all(x))[:-1] for x in pieces]
 
-    def enough(step: int) -> bool:
+    def is_enough(step: int) -> bool:
         thin = [_thin(x, step) for x in pieces]
         short = min(len(x.record.time) for x in pieces) < SHORT * len(thin[0].taps)
         return not short and _are_alike(at, thin, whole)
 
-    if not enough(choices[-1]):  # a motion that shakes is soon known
+    if not is_enough(choices[-1]):  # a motion that shakes is soon known
         return 1
-    step = next((k for k in choices[:-1] if enough(k)), choices[-1])
+    step = next((k for k in choices[:-1] if is_enough(k)), choices[-1])
     lost = np.mean(o.record.valid) - np.mean(_find_supported(_thin(o, step)))
     return 1 if lost > LOST or any(_has_line(at, _thin(o.part(rows), step)) for rows in chosen) else step
 

@@ -71,19 +71,19 @@ def diagnose_fitted(
     mistakes = [flag.effects for x in flights for flag in x.flags if flag.open and not flag.columns]
     evidence = search(first, extend, apart=bool(apart), mistakes=mistakes)
     output = _find_output_effects(f, flights)
-    found = Conclusion.of(evidence, output, apart=bool(apart))
-    if several and found.remains and not apart:
+    c = Conclusion.of(evidence, output, apart=bool(apart))
+    if several and c.remains and not apart:
         apart = find_disagreement(first, extend)
-        found = replace(found, verdict="unexplained", claims=()) if apart else found
-    if not (apart or found.line or found.outcome.explained.complaint) and (found.remains or not found.claims):
-        o, claimed = found.outcome, set(found.claims) & set(found.outcome.effects)
-        beside = (o.target, o.given) if claimed else (first.fitted, ())
-        left = propose_formulas(*beside, found.left)
-        if found.remains or left.significant:
-            found = replace(found, verdict=name_verdict(claimed=bool(found.claims), remains=True), left=left)
+        c = replace(c, verdict="unexplained", claims=()) if apart else c
+    if not (apart or c.line or c.outcome.explained.complaint) and (c.remains or not c.claims):
+        o, claimed = c.outcome, set(c.claims) & set(c.outcome.effects)
+        beside = (o.target, o.extra) if claimed else (first.fitted, ())
+        left = propose_formulas(*beside, c.left)
+        if c.remains or left.significant:
+            c = replace(c, verdict=name_verdict(claimed=bool(c.claims), remains=True), left=left)
     certain = [Ranked.without_columns(e, ranking.CERTAIN, first.scored.whole) for e in output]
-    ranked = complete_ranking([*rank_effects(first), *certain], evidence, found)
-    return _make_diagnosis(evidence, found, ranked, _choose_noise(f, found.outcome.target), apart, limits)
+    ranked = complete_ranking([*rank_effects(first), *certain], evidence, c)
+    return _make_diagnosis(evidence, c, ranked, _choose_noise(f, c.outcome.target), apart, limits)
 
 
 # factor up to which two estimates of a noise floor are one number: of slow noise it is hardly known better
@@ -98,17 +98,17 @@ def _choose_noise(f: Fitted, target: Fitted) -> Fitted:
 
 def _make_diagnosis(
     evidence: Evidence,
-    found: Conclusion,
+    c: Conclusion,
     ranked: Sequence[Ranked],
     noise: Fitted,
     apart: tuple[Disagreement, ...],
     limits: Mapping[str, float],
 ) -> Diagnosis:
     """What is reported; ``noise``: the fit of the noise floor, ``apart``: how flights disagree."""
-    first, outcome, left = evidence.first, found.outcome, found.left
+    first, outcome, left = evidence.first, c.outcome, c.left
     f, problem = first.fitted, first.problem
-    credence = ranking.weigh_effects(evidence.last.problem, evidence.steps).within(found.share)
-    chosen = [*dict.fromkeys([*found.claims, *outcome.effects])]
+    credence = ranking.weigh_effects(evidence.last.problem, evidence.steps).within(c.share)
+    chosen = [*dict.fromkeys([*c.claims, *outcome.effects])]
     place = {e: n for n, e in enumerate(chosen)}
     # of what the outcome leaves above the noise generic terms explain so much
     above = sum(s.square for s in left.searches) - outcome.target.calibration.rows
@@ -117,33 +117,33 @@ def _make_diagnosis(
     groups = evidence.alternatives().items()
     pairs = [(e, r) for e, alternatives in groups for r in alternatives[: next_motion.ALTERNATIVES]]
     return Diagnosis(
-        verdict=found.verdict,
+        verdict=c.verdict,
         fitted=f,
         ranking=tuple(sorted(rows, key=lambda r: (place.get(r.effect, len(place)), r.log_p, r.effect))),
-        found=found.claims,
+        found=c.claims,
         not_testable=tuple(ranking.list_not_testable(f, problem)),
-        remainder=left if found.remains else Remainder(tuple(replace(s, terms=()) for s in left.searches)),
-        remainder_share=min(1.0, by_terms / max(above, by_terms, 1.0)) if found.remains else 0.0,
+        remainder=left if c.remains else Remainder(tuple(replace(s, terms=()) for s in left.searches)),
+        remainder_share=min(1.0, by_terms / max(above, by_terms, 1.0)) if c.remains else 0.0,
         before=first.scored.whole,
         noise=noise,
         sizes=tuple(ranking.list_detectable(f, problem)),
         outcome=outcome,
         next_motion=tuple(next_motion.propose_motions(f, problem, pairs, limits)),
-        reasons=tuple(found.reasons(describe_disagreement(apart), spent=evidence.spent)),
+        reasons=tuple(c.reasons(describe_disagreement(apart), spent=evidence.spent)),
         disagree=apart,
         tests=round(problem.effective_count, 3),
-        groups=group_findings(found.claims, ranked, found.steady, found.shared),
+        groups=group_findings(c.claims, ranked, c.steady, c.shared),
         credible_set=credence.credible,
-        change=_find_change(outcome.target, evidence.instants, found.claims),
+        change=_find_change(outcome.target, evidence.instants, c.claims),
     )
 
 
-def complete_ranking(ranked: Sequence[Ranked], evidence: Evidence, found: Conclusion) -> list[Ranked]:
+def complete_ranking(ranked: Sequence[Ranked], evidence: Evidence, c: Conclusion) -> list[Ranked]:
     """The effects of the first stage's ranking, those that were derived into the model by what it leaves without and with them, and the
     random ones.
     """
-    o, rows = found.outcome, [*ranked]
-    if not found.remains:
+    o, rows = c.outcome, [*ranked]
+    if not c.remains:
         rows += [Ranked.without_columns(e, t, evidence.first.scored.whole) for e, t in o.random.items()]
     if evidence.steps:
         rows += rank_effects(evidence.last, only=evidence.last.chosen)
@@ -151,22 +151,22 @@ def complete_ranking(ranked: Sequence[Ranked], evidence: Evidence, found: Conclu
         rows += [ranking.rank_added(t, free) for t in evidence.steps]
     rows = [*{r.effect: r for r in rows}.values()]
     # beside a rival only what the recorder did is claimed, which has no columns
-    return rows if found.verdict != "partly-explained" or found.rival else _restate_claims(rows, found)
+    return rows if c.verdict != "partly-explained" or c.rival else _restate_claims(rows, c)
 
 
-def _restate_claims(rows: Sequence[Ranked], found: Conclusion) -> list[Ranked]:
+def _restate_claims(rows: Sequence[Ranked], c: Conclusion) -> list[Ranked]:
     """The rows with the values as they are beside all that is claimed, and a covariance that knows of what remains."""
-    o = found.outcome
-    free = release_held(o.target, candidates=bool(o.given))
-    given = [k for k, q in enumerate(free.candidates) if o.given and q.effect in found.claims]
-    fitted = [q.label for q in (*o.target.calibration.columns, *(o.target.candidates[k] for k in o.given))]
-    columns = [*free.calibration.columns, *(free.candidates[k] for k in given)]
-    robust = Regression.of(free, given)
-    covariance = estimate_covariance(robust, found.left, [q.label for q in columns], fitted)
+    o = c.outcome
+    free = release_held(o.target, candidates=bool(o.extra))
+    extra = [k for k, q in enumerate(free.candidates) if o.extra and q.effect in c.claims]
+    fitted = [q.label for q in (*o.target.calibration.columns, *(o.target.candidates[k] for k in o.extra))]
+    columns = [*free.calibration.columns, *(free.candidates[k] for k in extra)]
+    robust = Regression.of(free, extra)
+    covariance = estimate_covariance(robust, c.left, [q.label for q in columns], fitted)
     values = robust.value - robust.absent
     claimed = Estimates(free.model, free.calibration.p, columns, values, covariance)
     return [
-        r.with_estimates(claimed.select(r.effect), r.instant) if r.effect in found.claims else r for r in rows
+        r.with_estimates(claimed.select(r.effect), r.instant) if r.effect in c.claims else r for r in rows
     ]
 
 
@@ -180,7 +180,7 @@ def _find_change(target: Fitted, instants: Mapping[str, float], claimed: Sequenc
 
 def _find_output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
     """Effects of the recorder, recognised in the columns in which each is looked for: the recorded outputs, or those it names."""
-    found = set()
+    effects = set()
     place = f.prepared[0].observation.place
     first = [(w, b) for w, b in zip(f.prepared, f.beyond, strict=True) if w.observation.place == place]
     for x, (w, fast) in zip(flights, first, strict=True):
@@ -190,5 +190,5 @@ def _find_output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
         for effect, r in f.model.recognisers.items():
             looked_at = [columns[n] for n in getattr(r, "CHANNELS", outputs) if n in columns]
             if any(r.present(c, np.isfinite(c) & x.valid, noise) for c in looked_at):
-                found.add(effect)
-    return sorted(found)
+                effects.add(effect)
+    return sorted(effects)

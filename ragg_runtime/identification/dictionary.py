@@ -303,15 +303,15 @@ def is_recorded(name: str, r: Record) -> bool:
 
 def make_series(name: str, r: Record, centre: Mapping[str, float] = NOTHING) -> Array:
     """(N,), SI: a series over a record or a part of it, relaxations excepted (:func:`relax`); channels less their ``centre``."""
-    return _series(series_name.series(name, r.wide.keys()), r, centre)
+    return _evaluate(series_name.series(name, r.wide.keys()), r, centre)
 
 
-def _series(s: Series, r: Record, centre: Mapping[str, float]) -> Array:
+def _evaluate(s: Series, r: Record, centre: Mapping[str, float]) -> Array:
     if isinstance(s, Function):
         functions = {"abs": np.abs, "sign": np.sign, "square": np.square}
-        return np.asarray(functions[s.name](_series(s.of, r, centre)))
+        return np.asarray(functions[s.name](_evaluate(s.of, r, centre)))
     if isinstance(s, Product):
-        return np.asarray(np.prod([_series(x, r, centre) for x in s.of], axis=0))
+        return np.asarray(np.prod([_evaluate(x, r, centre) for x in s.of], axis=0))
     name = str(s)
     if name not in r.wide and series_name.list_channels(s)[0] in FORCES:
         return _turn_forces(name, r)
@@ -358,8 +358,8 @@ def relax(name: str, r: Record, rows: slice, centre: Mapping[str, float] = NOTHI
     part, first = r.part(slice(rows.start - lead, rows.stop)), int(np.argmax(r.valid))
     origin = 0.0
     if not begins_at_zero(s.of, centre):
-        origin = float(_series(s.of, r.part(slice(first, first + 1)), centre)[0])
-    x = np.where(part.valid, _series(s.of, part, centre) - origin, 0.0)
+        origin = float(_evaluate(s.of, r.part(slice(first, first + 1)), centre)[0])
+    x = np.where(part.valid, _evaluate(s.of, part, centre) - origin, 0.0)
     decay = float(np.exp(-1.0 / samples))
     return np.asarray(signal.lfilter([1.0 - decay], [1.0, -decay], x)[lead:])
 
@@ -372,20 +372,20 @@ def find_term_unit(channels_: Sequence[str]) -> str:
 
 def find_channel_unit(name: str) -> str:
     """SI unit of a series."""
-    return _unit(series_name.series(name, SI_UNITS.keys()))
+    return _derive_unit(series_name.series(name, SI_UNITS.keys()))
 
 
-def _unit(s: Series) -> str:
+def _derive_unit(s: Series) -> str:
     match s:
         case ChannelName(name):
             return "m/s^2" if name in FORCES else SI_UNITS.get(name, "1")
         case Derivative(of, order):
-            unit = _unit(of)
+            unit = _derive_unit(of)
             return f"m/s^{2 + order}" if unit == "m/s^2" else f"{unit}/{'s' if order == 1 else 's^2'}"
         case Function(name, of):
-            unit = _unit(of)
+            unit = _derive_unit(of)
             return {"abs": unit, "sign": "1", "square": f"({unit})^2"}[name]
         case Product(factors):
-            return "*".join(f"({_unit(x)})" for x in factors)
+            return "*".join(f"({_derive_unit(x)})" for x in factors)
         case Relaxation(of):
-            return _unit(of)
+            return _derive_unit(of)

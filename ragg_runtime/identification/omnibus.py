@@ -277,7 +277,7 @@ def pursue(s: Scores, tried: int = 0) -> Omnibus:
     return replace(
         nothing,
         log_p=first,
-        terms=tuple(_as_term(s, int(places[k]), *numbers) for k, *numbers in taken),
+        terms=tuple(_make_term(s, int(places[k]), *numbers) for k, *numbers in taken),
         chi2=sum(amount**2 for _, _, amount, _ in taken),
         explained=tuple(float(x) for x in explained),
         shift=-s.projector.to_basis @ (along.T @ each),
@@ -312,7 +312,7 @@ def _pursue(
         yield k, float(now[k]), amount, length
 
 
-def _as_term(s: Scores, place: int, z: float, amount: float, length: float) -> ResidualTerm:
+def _make_term(s: Scores, place: int, z: float, amount: float, length: float) -> ResidualTerm:
     """What was taken, in the units of its channels."""
     term = s.dictionary.terms[place]
     size = s.dictionary.size(term)

@@ -30,26 +30,26 @@ Array = NDArray[np.float64]
 class Outcome:
     """Flights with some ``effects`` in the model, and what they leave.
 
-    Effects that are not derived into the model of ``target`` are in its candidate columns ``given``.
+    Effects that are not derived into the model of ``target`` are in its candidate columns ``extra``.
     """
 
     effects: tuple[str, ...]
     target: Fitted
-    given: tuple[int, ...]
+    extra: tuple[int, ...]
     coefficients: Array
     scored: Scored
     remainder: Remainder
     random: Mapping[str, Test]
 
     @staticmethod
-    def of(f: Fitted, effects: Sequence[str], given: Sequence[int]) -> Outcome:
-        v = f.vector(f.coefficients(given)[0], given) if given else np.zeros(f.size)
-        left, random = omnibus.search(f, given, _find_random_columns(f))
-        return Outcome(tuple(effects), f, tuple(given), v, f.score([v])[0], left, random)
+    def of(f: Fitted, effects: Sequence[str], extra: Sequence[int]) -> Outcome:
+        v = f.vector(f.coefficients(extra)[0], extra) if extra else np.zeros(f.size)
+        left, random = omnibus.search(f, extra, _find_random_columns(f))
+        return Outcome(tuple(effects), f, tuple(extra), v, f.score([v])[0], left, random)
 
     @cached_property
     def regression(self) -> Regression:
-        return Regression.of(self.target, self.given)
+        return Regression.of(self.target, self.extra)
 
     @cached_property
     def noise_floor(self) -> float:
@@ -69,7 +69,7 @@ class Outcome:
         """Whether the sheet is taken to be less sure than it says, beside effects that are derived into the model."""
         widths = self.target.instrument.widths
         sheet = (c.name for c in self.target.calibration.columns if c.effect is None)
-        return not self.given and any(name in widths for name in sheet)
+        return not self.extra and any(name in widths for name in sheet)
 
     @property
     def remains(self) -> bool:
@@ -110,13 +110,13 @@ class Evidence:
     def explained(self, o: Outcome) -> tuple[float, int]:
         """Chi-square that an outcome's effects explain of what the model leaves without them, and with how many coefficients."""
         first = self.first
-        known = [e for e in o.effects if e in first.problem.candidates]
+        testable = [e for e in o.effects if e in first.problem.candidates]
         # the columns of each that are needed, by a linear test of the first stage
         chosen, tests = {} if self.steps else self.last.chosen, first.problem.tests()
-        linear, _ = first.problem.joint([chosen.get(e) or tests[e].which for e in known])
+        linear, _ = first.problem.joint([chosen.get(e) or tests[e].which for e in testable])
         rank = self._count_coefficients(o)
         remembers = any(e.memory is not None and e.id in o.effects for e in o.target.model.effects)
-        if o.given or (linear < strong.STRONG and len(known) == len(o.effects) and not remembers):
+        if o.extra or (linear < strong.STRONG and len(testable) == len(o.effects) and not remembers):
             return linear, rank
         # second orders of strong effects: what is left once they are derived into the model, by the noise of the model without them
         f, noise = o.target, first.fitted.calibration.noise
@@ -166,8 +166,8 @@ class Evidence:
         model, sheet = strong.derive_with(f, [effect], {}, self.extend)
         sheet = strong.choose_start(f, model, sheet, effect)
         kept, sheet, instead = fitted_.calibrate_certain(model, sheet, o.target.observations, noise=noise)
-        own = [n for n, q in enumerate(instead.columns) if q.effect == effect]
-        known = len(own) - float(np.trace(instead.covariance[np.ix_(own, own)]))
+        places = [n for n, q in enumerate(instead.columns) if q.effect == effect]
+        rank = len(places) - float(np.trace(instead.covariance[np.ix_(places, places)]))
         chosen_sheet, chosen = calibrate(*self._model_with(o.effects), kept, noise=noise)
         without = calibration.fit(f.model, f.instrument, kept, noise=noise, start=f.calibration.p).chi2
         more, less = (
@@ -175,7 +175,7 @@ class Evidence:
             for fitted in ((sheet, instead), (chosen_sheet, chosen))
         )
         charge = self.charge(o) + (len(o.effects) - 1) * float(np.log(self.first.problem.count))
-        return weigh(more, known) - weigh(less, self._count_coefficients(o), charge)
+        return weigh(more, rank) - weigh(less, self._count_coefficients(o), charge)
 
     def _is_derived(self, o: Outcome) -> bool:
         return self.extend is not None and bool(self.steps or o.target is not self.last.fitted)
@@ -234,12 +234,12 @@ def _derive_chosen(last: Stage, extend: Extend | None) -> Fitted | None:
     return fit(extended, instrument, f.observations, f.calibration.noise, start)
 
 
-def _start_from_linear_fit(f: Fitted, given: Sequence[int], extended: Model, instrument: Instrument) -> Array:
+def _start_from_linear_fit(f: Fitted, extra: Sequence[int], extended: Model, instrument: Instrument) -> Array:
     """Parameter vector of the extended model as the linear fit has it, SI."""
-    own = [f.candidates[n] for n in given]
-    fitted, _ = f.coefficients(given)
-    columns = (*f.calibration.columns, *own)
-    before = (*f.calibration.p[f.calibration.index], *(0.0 for _ in own))
+    candidates = [f.candidates[n] for n in extra]
+    fitted, _ = f.coefficients(extra)
+    columns = (*f.calibration.columns, *candidates)
+    before = (*f.calibration.p[f.calibration.index], *(0.0 for _ in candidates))
     value = {c.label: b + x * c.scale for c, b, x in zip(columns, before, fitted, strict=True)}
     p = make_vector(extended, f.instrument)
     for c, place in regressors.list_base_columns(extended, instrument):
@@ -252,5 +252,5 @@ def _find_random_columns(f: Fitted) -> dict[str, int]:
     if any(o.recorded.demodulated for o in f.observations):
         return {}  # neighbouring samples of a demodulated channel are not independent
     random = {e.id for e in f.model.candidates if e.kind == "random"}
-    own = group_by_effect(f.candidates)
-    return {e: f.n_base + columns[0][0] for e, columns in own.items() if e in random}
+    groups = group_by_effect(f.candidates)
+    return {e: f.n_base + columns[0][0] for e, columns in groups.items() if e in random}

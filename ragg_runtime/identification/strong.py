@@ -104,12 +104,12 @@ class Stage:
         ``beside``: of what is left beside effects that were taken into the model.
         """
         stage = Stage._of(f, beside)
-        said = _with_priors_of_sheet(f)
+        by_sheet = _with_priors_of_sheet(f)
         # what is stronger is no matter of linear tests: it is tried in the model, where the sheet has its own priors
-        if said is None or said.calibration.chi2 > f.calibration.chi2 + STRONG:
+        if by_sheet is None or by_sheet.calibration.chi2 > f.calibration.chi2 + STRONG:
             return stage
-        other = Stage._of(said, beside)
-        return other if other._deviance(said) < stage._deviance(f) else stage
+        other = Stage._of(by_sheet, beside)
+        return other if other._deviance(by_sheet) < stage._deviance(f) else stage
 
     @staticmethod
     def _of(f: Fitted, beside: bool) -> Stage:
@@ -173,18 +173,18 @@ def select_strong(
     all fits are made; and whether they are. Where the strongest is none of those that describe ``mistakes``, nothing of the record can be
     claimed, and what is strong beside it remains.
     """
-    found: list[AddedEffect] = []
+    steps: list[AddedEffect] = []
     stage, fits = first, FITS
-    while extend is not None and stage.strong and len(found) < selection.MOST and fits > 0:
+    while extend is not None and stage.strong and len(steps) < selection.MOST and fits > 0:
         contest = Contest(stage, extend, fits)
         one = contest.add_strongest()
         if one is None:
-            return found, stage.without_choice(), contest.fits <= 0
-        found.append(one)
+            return steps, stage.without_choice(), contest.fits <= 0
+        steps.append(one)
         stage, fits = Stage.of(one.after, beside=True), contest.fits
-        if stage.strong and any(found[0].effect not in effects for effects in mistakes):
-            return found, stage.without_choice(), fits <= 0
-    return found, stage, fits <= 0
+        if stage.strong and any(steps[0].effect not in effects for effects in mistakes):
+            return steps, stage.without_choice(), fits <= 0
+    return steps, stage, fits <= 0
 
 
 def list_unneeded(problem: ProjectedProblem, effect: str, which: Sequence[int]) -> frozenset[str]:
@@ -200,13 +200,13 @@ def score_fit(f: Fitted, model: Model, sheet: Instrument) -> tuple[float, bool]:
     """
     _, instrument, c = calibrate_certain(model, sheet, f.observations, noise=f.calibration.noise)
     x = -measure_to_nominal(model, instrument, c)
-    known = len(c.columns) - float(np.trace(c.covariance))
+    rank = len(c.columns) - float(np.trace(c.covariance))
     left_out = f.calibration.rows - c.rows  # each would have its share of the noise
-    own = x[[n for n, q in enumerate(c.columns) if q.effect is not None]]
+    sizes = x[[n for n, q in enumerate(c.columns) if q.effect is not None]]
     # Cauchy's tails for those of the prior: of two effects that explain the same, fifty and sixty times as large as usual,
     # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
-    tails = float(np.sum(np.log1p(own**2) - own**2))
-    return measure_deviance(instrument, c) + left_out + 2.0 * known + tails, c.converged
+    tails = float(np.sum(np.log1p(sizes**2) - sizes**2))
+    return measure_deviance(instrument, c) + left_out + 2.0 * rank + tails, c.converged
 
 
 # where a fit of what has a memory begins, over the neutral value of the first of its shapes: of a resonance 2, 4, 8 and 16 Hz
@@ -217,19 +217,19 @@ def choose_start(f: Fitted, model: Model, sheet: Instrument, effect: str) -> Ins
     """The sheet with the shape of an effect that has a memory at which it leaves least, while the shape is held; from another a fit may
     end in a narrow minimum. Values that the sheet has stay.
     """
-    own = next(e for e in model.effects if e.id == effect)
-    shapes = [q for q in own.parameters if q.shape]
-    if own.memory is None or sheet.effect(effect) not in (None, EffectSetting(effect)):
+    derived = next(e for e in model.effects if e.id == effect)
+    shapes = [q for q in derived.parameters if q.shape]
+    if derived.memory is None or sheet.effect(effect) not in (None, EffectSetting(effect)):
         return sheet
     others = tuple(s for s in sheet.effects if s.id != effect)
     held = sheet.held | {f"{effect}.{q.name}" for q in shapes}
-    found = []
+    sheets = []
     for scale in SCALES:
         value = RawQuantity(scale * shapes[0].default, shapes[0].unit)
         begun = EffectSetting(effect, {shapes[0].name: value})
-        found.append(replace(sheet, effects=(*others, begun)))
-    left = [score_fit(f, model, replace(s, held=held))[0] for s in found]
-    return found[int(np.argmin(left))]
+        sheets.append(replace(sheet, effects=(*others, begun)))
+    left = [score_fit(f, model, replace(s, held=held))[0] for s in sheets]
+    return sheets[int(np.argmin(left))]
 
 
 CERTAIN = 5.0  # standard deviations from the values that are possible at which an estimate is impossible
@@ -244,15 +244,15 @@ FARTHEST = 100.0
 
 def find_impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
     """Those of the effects, all in the fitted model, whose parameter has a size that it cannot have, or that is unheard of."""
-    calibration, found = f.calibration, []
+    calibration, impossible = f.calibration, []
     for n, c, q in list_bounded_columns(f):
         true = q.physical or 0.0
         room = ROOM * abs(true) if q.largest is None else q.largest
         off = abs(float(calibration.p[calibration.index[n]]) - true * c.unit_factor)
         if off > room * c.unit_factor + CERTAIN * c.scale * np.sqrt(calibration.covariance[n, n]):
-            found.append(c.effect)
-    found += [c.effect for c in calibration.columns if f.instrument.widths.get(c.name, 1.0) > FARTHEST]
-    return tuple(e for e in dict.fromkeys(effects) if e in found)
+            impossible.append(c.effect)
+    impossible += [c.effect for c in calibration.columns if f.instrument.widths.get(c.name, 1.0) > FARTHEST]
+    return tuple(e for e in dict.fromkeys(effects) if e in impossible)
 
 
 @dataclass
@@ -278,11 +278,11 @@ class Contest:
             effect, alternatives = self._choose_best(tests)
             if self.left and not self.arrived:
                 return None
-            found = _add_to_model(self.stage, effect, alternatives, self.extend)
+            added = _add_to_model(self.stage, effect, alternatives, self.extend)
             self.fits -= 1
-            if len(tests) == 1 or self.fits <= 0 or not find_impossible(found.after, (effect,)):
-                return found
-            if found.after.calibration.excess <= QUIET and not alternatives:
+            if len(tests) == 1 or self.fits <= 0 or not find_impossible(added.after, (effect,)):
+                return added
+            if added.after.calibration.excess <= QUIET and not alternatives:
                 return None
             tests.pop(effect)
 
@@ -342,18 +342,18 @@ def _test_about_values(f: Fitted) -> dict[str, tuple[frozenset[str], Test]]:
     """Of every effect of a fit a linear test about the fitted values, where it is right, and labels of the coefficients that it does
     not need.
     """
-    c, found = f.calibration, {}
+    c, tests = f.calibration, {}
     for effect in dict.fromkeys(q.effect for q in c.columns if q.effect is not None):
         # what is not zero on the sheet shapes the effect, and is no coefficient of it
-        own = [n for n, q in enumerate(c.columns) if q.effect == effect and not f.sheet[c.index[n]]]
-        others = [n for n in range(f.n_base) if n not in own]
-        without = f.whole[:, -1] - f.whole[:, own] @ f.to_nominal[own]
-        T = compute_r_factor(np.vstack([f.whole[:, [*others, *own]].T, without]))
+        columns = [n for n, q in enumerate(c.columns) if q.effect == effect and not f.sheet[c.index[n]]]
+        others = [n for n in range(f.n_base) if n not in columns]
+        without = f.whole[:, -1] - f.whole[:, columns] @ f.to_nominal[columns]
+        T = compute_r_factor(np.vstack([f.whole[:, [*others, *columns]].T, without]))
         P = likelihood_ratio.project(T, len(others))
-        tested = [(k, c.columns[n]) for k, n in enumerate(own)]
+        tested = [(k, c.columns[n]) for k, n in enumerate(columns)]
         test = likelihood_ratio.test(P, tested, np.full(P.shape[1], likelihood_ratio.TESTABLE))
-        found[effect] = frozenset(q.label for k, q in tested if k not in test.which), test
-    return found
+        tests[effect] = frozenset(q.label for k, q in tested if k not in test.which), test
+    return tests
 
 
 def _as_sure(a: Test, b: Test) -> bool:

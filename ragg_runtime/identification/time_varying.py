@@ -101,9 +101,9 @@ class BlockScores:
         d, v = self.dot[:, terms], self.norm2[:, terms] * level[block][:, None]
         # of heavy tails, as the fourth moment tells, a block's rows tell its level no better than fewer Gaussian ones would
         spread = self.fourth * float(np.sum(rows)) / float(np.sum(square)) ** 2 - 1.0
-        known = float(np.mean(rows[rows > 0])) * min(1.0, 2.0 / max(spread, 1e-3))
-        found = [self._scatter(d, v, block), self._window(d, v, known), self._jump(d, v), self._swing(d, v)]
-        best = min((f for f in found if f is not None), key=lambda f: f.log_p)
+        freedom = float(np.mean(rows[rows > 0])) * min(1.0, 2.0 / max(spread, 1e-3))
+        tests = [self._scatter(d, v, block), self._window(d, v, freedom), self._jump(d, v), self._swing(d, v)]
+        best = min((f for f in tests if f is not None), key=lambda f: f.log_p)
         log_p = min(0.0, best.log_p + float(np.log(len(terms) * QUESTIONS)))
         return replace(best, log_p=log_p, place=int(terms[best.place]))
 
@@ -112,9 +112,9 @@ class BlockScores:
         d, v = np.add.reduceat(d, starts, axis=0), np.add.reduceat(v, starts, axis=0)
         each = np.sum(_divide(d**2, v), axis=0)
         k = int(np.argmax(each))
-        chi2, own = float(each[k]), v[v[:, k] > 0.0, k]
-        freedom = max(1, len(own))
-        size2 = float(np.mean(own)) if len(own) else np.inf
+        chi2, norms2 = float(each[k]), v[v[:, k] > 0.0, k]
+        freedom = max(1, len(norms2))
+        size2 = float(np.mean(norms2)) if len(norms2) else np.inf
         coefficient = float(np.sqrt(max(0.0, chi2 - freedom) / freedom / size2))
         how = "varies from block to block of time"
         return Varying(log_sf(chi2, freedom), k, chi2, coefficient, size2**-0.5, how, freedom)

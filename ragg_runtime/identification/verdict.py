@@ -49,7 +49,7 @@ class Conclusion:
     @staticmethod
     def of(evidence: Evidence, output: Sequence[str], *, apart: bool) -> Conclusion:
         """Judge what the search has found; ``output``: what the recorder did."""
-        chosen, line, steady = _without_lines(evidence)
+        chosen, line, steady = _drop_lines(evidence)
         base = omnibus.search_residuals(evidence.first.fitted) if chosen.effects else []
         count = evidence.first.problem.count + len(chosen.random)
         compare = partial(_compare_with_terms, evidence, base, count)
@@ -112,13 +112,13 @@ class Conclusion:
             verb, how = "is" if len(self.claims) == 1 else "are", "certain" if self.remains else "missing"
             reasons.append(Reason(f"{join_names(self.claims)} {verb} {how}", kind="verdict"))
         if self.remains:
-            reasons += self._left()
+            reasons += self._describe_residual()
         if reasons and self.open:
             names = join_names(self.open[:3], "or")
             reasons.append(Reason(f"the record is not sufficient to decide whether {names} is also present"))
         return [*reasons, *remarks]
 
-    def _left(self) -> list[Reason]:
+    def _describe_residual(self) -> list[Reason]:
         """What remains, in words."""
         o = self.outcome
         terms = [f"{t.term.harmonic} x {t.term.product}" for x in self.left.searches for t in x.terms]
@@ -141,7 +141,7 @@ class Conclusion:
 OPEN = 0.1  # p-value from which an effect is named as one for which the record does not suffice
 
 
-def _without_lines(evidence: Evidence) -> tuple[Outcome, LineAlternative | None, tuple[Steady, ...]]:
+def _drop_lines(evidence: Evidence) -> tuple[Outcome, LineAlternative | None, tuple[Steady, ...]]:
     """The outcome without the effects in whose place a line near a multiple of the spin rate does as well; that line, and those effects
     that are no more than a line at the multiple.
     """
