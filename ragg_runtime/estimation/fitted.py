@@ -78,7 +78,7 @@ class Fitted:
 
     @property
     def first(self) -> list[int]:
-        """Place among the observations of the first of each flight, of however many outputs."""
+        """Place of each flight's first observation."""
         return [
             n for n, o in enumerate(self.observations) if not n or o.flight != self.observations[n - 1].flight
         ]
@@ -94,7 +94,7 @@ class Fitted:
 
     @property
     def candidates(self) -> Sequence[Column]:
-        """Those of the candidate effects, after the base columns; none where nothing was prepared for their tests."""
+        """Columns of the candidate effects; none where nothing was prepared for their tests."""
         return self.prepared[0].at.candidates
 
     @property
@@ -160,7 +160,7 @@ class Fitted:
         return [x.residuals(v[None])[0] for x in self.prepared]
 
     def score(self, vectors: Sequence[Array]) -> list[Scored]:
-        """How large the residuals are with these coefficients (size,)."""
+        """Scores of the residuals with each of these coefficients (size,)."""
         most = max(1, TOGETHER // sum(len(o.record.time) for o in self.observations))
         scores = []
         for part in split_range(len(vectors), most):
@@ -168,11 +168,11 @@ class Fitted:
         return scores
 
     def score_residuals(self, residuals: Sequence[Array]) -> Scored:
-        """How large residuals (N,), V, are, one of each flight."""
+        """The score of residuals (N,), V, one of each flight."""
         return self._score_each([e[None] for e in residuals])[0]
 
     def _score_each(self, residuals: Sequence[Array]) -> list[Scored]:
-        """How large each of some residuals is, (k, N) of every flight."""
+        """The score of each of k residuals, (k, N) of every flight."""
         blocks, squares, samples, errors = [], [], [], []
         for x, e, k_ggi, beyond in zip(self.prepared, residuals, self.scales, self.beyond, strict=True):
             r = x.observation.record

@@ -67,7 +67,7 @@ def _enter_rows(R: Array, part: Array, trapezoid: int = 0) -> Array:
 
 
 def join(blocks: Sequence[Array]) -> Array:
-    """The R factor of several records together, each of them in any rows (k, n) with the right inner products."""
+    """The R factor of several records together, each given by rows (k, n) with the right inner products."""
     if len(blocks) == 1:
         return blocks[0]
     return compute_r_factor(np.vstack(blocks).T)
@@ -96,7 +96,7 @@ def pick_columns(T: Array, first: int, picked: Sequence[int]) -> Array:
 
 
 def marginalise(root: Array, parameters: Sequence[int]) -> Array:
-    """(n, n): a root of the information about some parameters, marginal over the others, from one (all, all) about all."""
+    """(n, n): a root of the information about some parameters, marginal over the others, from a root of that about all."""
     others = [k for k in range(len(root)) if k not in set(parameters)]
     if not others:
         return root

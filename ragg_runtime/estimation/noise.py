@@ -421,7 +421,7 @@ class NoiseModel:
         return np.asarray(x / np.asarray(level, dtype=x.dtype))
 
     def line_columns(self, time: Array, series: int) -> Array:
-        """(k, m, n): what the lines span at some times, s, each in its own of the m ``series``."""
+        """(k, m, n): what the lines span at some times, s, each in one of the m ``series``."""
         shown = np.eye(series) if self.combinations is None else self.combinations
         columns = [
             Disturbance("line", x.frequency).columns(time)[:, None] * shown[x.output][:, None]

@@ -177,7 +177,7 @@ def compute_line_width(o: Observation) -> float:
 
 
 def _list_lines(parts: Sequence[_Part], o: Observation, level: Level) -> tuple[SpectralLine, ...]:
-    """The lines of the output that are none of the motion's: where that has lines itself, they may be."""
+    """The lines of the output, multiples of the spin rate excepted; none where the motion has lines, from which they may come."""
     r, width = o.record, compute_line_width(o)
     spin = unknown_gradient.measure_spin_frequency(o) if r.turning else np.inf
     lines: list[SpectralLine] = []
@@ -262,7 +262,7 @@ def _fill(rest: Array, valid: NDArray[np.bool_], model: Spectrum) -> tuple[Array
 
 
 def _choose_segments(o: Observation, most: int, samples: int) -> list[slice]:
-    """The beginnings of at ``most`` so many segments, spread over the flight, with at most so many ``samples`` in all."""
+    """The beginnings of up to ``most`` segments, spread over the flight, of up to ``samples`` samples in all."""
     segments = spread(o.segments, most)
     if not o.recorded.demodulated:  # their columns pass a two-sided filter and are not divided
         segments = [slice(x.start, min(x.stop, x.start + samples // len(segments))) for x in segments]
@@ -276,7 +276,7 @@ def _fit_segments(
     chosen: Sequence[slice],
     level: Level = CONSTANT,
 ) -> list[_Part]:
-    """What is left of some segments of the flight, of the series as they are or in combinations, by a fit that weighs by a level."""
+    """Residuals of some segments of the flight, of the series or of combinations of them, by a fit weighted by a level."""
     band = unknown_gradient.find_band(o)
     random = {e.id for e in at.model.candidates if e.kind == "random"}
     shown = [(n, c.effect) for n, c in enumerate(at.candidates, len(at.base)) if c.effect in random]
@@ -300,7 +300,7 @@ def _fit_segments(
 
 
 def _make_unit_noise(o: Observation, apart: Array | None, level: Level = CONSTANT) -> NoiseModel:
-    """What leaves the series as they are, or in combinations, over a level."""
+    """A noise that whitens nothing: the series, or combinations of them, over a level."""
     return replace(NoiseModel.white(o.record.rate, len(o.series)), level=level, combinations=apart)
 
 

@@ -42,7 +42,7 @@ def split_at_blocks(rows: slice, samples: int) -> list[tuple[int, slice]]:
 
 
 def spread(segments: Sequence[slice], most: int) -> list[slice]:
-    """At most so many of the segments, evenly spread."""
+    """Up to ``most`` of the segments, evenly spread."""
     if len(segments) <= most:
         return list(segments)
     return [segments[k] for k in np.linspace(0, len(segments) - 1, most).round().astype(int)]
@@ -211,13 +211,13 @@ class Thin:
         return replace(self, rows=slice(first + rows.start, first + rows.stop))
 
     def source(self) -> Observation:
-        """The part of the whole that these are made of."""
+        """The part of the whole that the samples are made of."""
         return self.whole.part(
             slice(self.rows.start * self.step, (self.rows.stop - 1) * self.step + len(self.taps))
         )
 
     def kept(self, x: Array) -> Array:
-        """Series (..., N) over the :meth:`source`, thinned: (..., n), which does not hold on to the others."""
+        """Series (..., N) over the :meth:`source`, thinned: (..., n), a copy."""
         return convolve(x, self.taps)[..., :: self.step].copy()
 
 

@@ -158,7 +158,7 @@ def _list_humps(spin: float | None) -> list[tuple[float, ...]]:
 
 
 def _make_hats(f: Array, humps: Sequence[float]) -> Array:
-    """(n, HATS for each): hat functions of the distance from the humps, Hz; of near ones they are narrower."""
+    """(n, HATS for each hump): hat functions of the distance from the humps, Hz; narrower where humps are close."""
     apart = min(APART, 0.32 * humps[0]) if humps else APART
     away = [np.abs(f - h) / apart for h in humps]
     hats = [np.clip(1.0 - np.abs(x - k), 0.0, None) for x in away for k in range(HATS)]
@@ -166,7 +166,7 @@ def _make_hats(f: Array, humps: Sequence[float]) -> Array:
 
 
 def _leave_out_humps(humps: Sequence[float], f: Array, band: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Those of some of the frequencies (n,) that are outside the humps, if that is most of them."""
+    """The frequencies of a band (mask (n,) of f) outside the humps, if these are most of the band; else the band."""
     beside = band & ~np.any(_make_hats(f, humps), axis=1)
     return beside if 2 * np.sum(beside) > np.sum(band) else band
 
@@ -362,7 +362,7 @@ class Disturbance:
 
 
 def find_lines(rest: Array, rate: float, without: tuple[float, float] | None) -> list[Disturbance]:
-    """Those in a residual (N,), zero where it is not valid; none in a band (from, to, Hz) that has lost its noise."""
+    """The lines in a residual (N,), zero where not valid, outside the band ``without`` (from, to, Hz), which has lost its noise."""
     f, p = (x[LOWEST:-1] for x in compute_periodogram(rest, rate))
     if without is not None:
         kept = (f < without[0]) | (f > without[1])

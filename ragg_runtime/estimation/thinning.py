@@ -80,7 +80,7 @@ def leave_out_extrapolated(model: Model, p: Array, observations: Sequence[Observ
 
 
 def _leave_out(o: Observation, mask: NDArray[np.bool_]) -> Observation:
-    """An observation without some samples (N,), unless these are too many."""
+    """An observation without the samples of a mask (N,), unless these are too many."""
     valid = o.record.valid
     kept = valid & ~mask
     if np.array_equal(kept, valid) or np.sum(kept) < (1.0 - MOST_LEFT_OUT) * np.sum(valid):
@@ -142,7 +142,7 @@ LOST = 0.05  # share of the samples that may be lost beside those that are missi
 def thin_observations(
     model: Model, instrument: Instrument, observations: Sequence[Observation]
 ) -> list[Observation]:
-    """Observations as thin as their columns allow about the sheet, those of one flight alike; short ones as they are."""
+    """Observations thinned as far as their columns about the sheet allow, those of one flight alike; short ones as they are."""
     candidates = design.list_candidate_columns(model, instrument)
     at = make_point(model, instrument, make_vector(model, instrument), candidates)
     most = [_find_most(at, o) for o in observations]
@@ -154,7 +154,7 @@ def thin_observations(
 
 
 def _find_most(at: LinearisationPoint, o: Observation) -> int:
-    """One in how many of its samples is enough."""
+    """The largest step at which its samples may be taken."""
     least = max(LEAST_RATE, 2 * (4 * o.record.spin_frequency + ABOVE) / PASSED)
     choices = [k for k in EVERY if o.record.rate >= k * least]
     if o.recorded.demodulated or len(o.segments) == 1 or not choices:
@@ -212,7 +212,7 @@ def measure_beyond(model: Model, p: Array, o: Observation) -> float:
 
 
 def _are_alike(at: LinearisationPoint, pieces: Sequence[Thin], whole: Sequence[Array]) -> bool:
-    """Whether along the thinned motion the same columns are made, of pieces of a flight, as the ``whole`` ones are, thinned."""
+    """Whether the columns of thinned pieces of a flight are the ``whole`` pieces' columns, thinned."""
     square = off = np.zeros(1)
     for thin, columns in zip(pieces, whole, strict=True):
         o = replace(_keep_samples(thin), thin=None)
@@ -245,7 +245,7 @@ def _find_supported(thin: Thin) -> NDArray[np.bool_]:
 
 
 def _keep_samples(thin: Thin) -> Observation:
-    """The observation made of those samples of another that are kept."""
+    """The thinned observation."""
     o, half = thin.whole, len(thin.taps) // 2
     r = o.record
 

@@ -50,7 +50,7 @@ class Piece:
         return compute_r_factor(self.white if mask.all() else self.white[:, mask])
 
     def sums(self, samples: slice = slice(None)) -> Array:
-        """(n + 1,), V: sums of the columns of G_out over some samples; zero of channels, which have lost their mean."""
+        """(n + 1,), V: sums of the columns of G_out over ``samples``; zero of channels, which have lost their mean."""
         weights = self.observation.signs * (not self.observation.recorded.demodulated)
         return np.asarray(np.sum(self.columns[:, :, samples], axis=2) @ weights)
 
@@ -128,7 +128,7 @@ class PreparedFlight:
         return pass_over(self.at, self.observation, self.noise, work, chosen=chosen, whitened=whitened)
 
     def lean(self, places: Sequence[int]) -> tuple[PreparedFlight, list[int]]:
-        """What makes the columns of the base and those at ``places`` at least cost, and where it puts the latter."""
+        """The flight that computes least for the columns of the base and those at ``places``, and where it has the latter."""
         if self.pieces is not None:
             return self, list(places)
         n = len(self.at.base)
@@ -233,7 +233,7 @@ class Projector:
     def lean(
         self, x: PreparedFlight, further: Sequence[int] = ()
     ) -> tuple[PreparedFlight, Projector, list[int]]:
-        """What makes the columns that are taken, and ``further`` ones, at least cost, with the places of both in it."""
+        """The flight that computes least for the columns taken and ``further`` ones, the projector for it, and where it has the latter."""
         x, places = x.lean([*self.taken, *further])
         k = len(self.taken)
         return x, replace(self, taken=np.array(places[:k], dtype=np.intp)), places[k:]

@@ -78,19 +78,19 @@ class Regression:
         return [k for k, e in enumerate(self.effects) if e == effect]
 
     def blocks(self, only: Sequence[int] | None = None) -> list[Array]:
-        """R factors of the blocks, or of some of each flight, that hold any sample."""
+        """R factors of the blocks that hold any sample: of all blocks of each flight, or of ``only`` these."""
         return [
             t for ts in self.flights for b, t in enumerate(ts) if (only is None or b in only) and np.any(t)
         ]
 
     def log_evidence(self, only: Sequence[int] | None = None, without: Sequence[int] = ()) -> float:
-        """Of some blocks, but for a constant of these: log of the Gaussian integral over the coefficients that are fitted."""
+        """Log of the Gaussian integral over the fitted coefficients, up to a constant of the blocks."""
         R = self._factor(only, without)
         k = len(self.centre) - len(without)
         return -0.5 * float(np.sum(R[k:, k] ** 2)) - float(np.sum(np.log(np.abs(np.diag(R)[:k]))))
 
     def _factor(self, only: Sequence[int] | None, without: Sequence[int]) -> Array:
-        """The R factor of [the columns that are fitted | data], the prior in it."""
+        """The R factor of [fitted columns | data], the prior included."""
         n = len(self.centre)
         kept = [k for k in range(n) if k not in without]
         fixed = np.zeros(n)
@@ -132,7 +132,7 @@ class Regression:
         return np.asarray(S @ S.T)
 
     def significance(self, effect: str) -> Significance:
-        """Of an effect fitted jointly with all others, by its columns that are at rest where it is absent."""
+        """The significance of an effect fitted jointly with all others, by its columns other than shapes."""
         E, C = [k for k in self.columns(effect) if k not in self.shapes], self.covariance
         submatrix = np.ix_(E, E)
         sizes, U = np.linalg.eigh(C[submatrix])

@@ -145,7 +145,7 @@ class Comparison:
         }
 
     def _of_outputs(self) -> dict[str, object]:
-        """Of an instrument with several outputs each of them, and all together."""
+        """Of an instrument with several outputs: each of them, and all together."""
         f = self.fitted
         if len(f.instrument.layout.outputs) == 1:
             return {}
@@ -209,7 +209,7 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
 
 
 def score_with_nominal(f: Fitted, vectors: Sequence[Array]) -> list[Scored]:
-    """How large the residuals are with these coefficients (size,), and with the nominal values (last)."""
+    """Scores of the residuals with each of these coefficients (size,), and, last, with the nominal values."""
     return [*f.score(vectors), f.score_residuals(compute_residuals(f, f.sheet))]
 
 
@@ -248,7 +248,7 @@ def compute_residuals(f: Fitted, p: Array) -> list[Array]:
 
 
 def compute_residual(model: Model, o: Observation, p: Array, noise: NoiseModel) -> Array:
-    """The same of one flight, without what an unknown gradient can be in it."""
+    """The same of one flight, an unknown gradient projected out."""
 
     def of_segment(rows: slice) -> Array:
         part = o.part(rows)
@@ -354,7 +354,7 @@ class Together:
 
 
 def compare_outputs(f: Fitted) -> list[Together]:
-    """Of every flight with several turning outputs what they saw."""
+    """What the outputs of every flight with several turning discs saw."""
     groups = []
     for first, last in pairwise([*f.first, len(f.observations)]):
         estimates = (

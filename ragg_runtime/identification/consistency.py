@@ -52,7 +52,7 @@ def are_far_apart(first: Stage) -> bool:
 
 
 def find_disagreement(first: Stage, extend: Extend | None) -> tuple[Disagreement, ...]:
-    """The flights that agree, and what these lack; nothing where all do."""
+    """Groups of flights that agree, and the effects that each group lacks; none where all flights agree."""
     f = first.fitted
     groups: list[_Group] = []
     for places in _group_by_flight(f).values():
@@ -89,7 +89,7 @@ class _Group:
         return _Group(f.observations, alone.claims, c.noise, c.excess * c.rows, c.rows, not alone.remains, f)
 
     def join(self, other: _Group, extend: Extend | None) -> _Group | None:
-        """Both, unless one set of parameters explains them plainly worse; where more than noise is left of each, far worse."""
+        """Both as one group, or ``None`` if one set of parameters explains them plainly worse (far worse, unless both are explained)."""
         f, effects = self.base, tuple(sorted({*self.effects, *other.effects}))
         kinds = {e.id: e.kind for e in f.model.candidates}
         if effects and (extend is None or any(kinds[e] == "step" for e in effects)):
@@ -115,7 +115,7 @@ def _group_by_flight(f: Fitted) -> dict[int, list[int]]:
 
 
 def _make_flight_problem(f: Fitted, places: Sequence[int]) -> ProjectedProblem:
-    """The problem of one flight, whose observations have these places."""
+    """The problem of one flight, which has the observations at these places."""
     noise = tuple(f.calibration.noise[n] for n in places)
     single = replace(
         f,
@@ -163,7 +163,7 @@ def log_e(*parts: Array) -> float:
 
 
 def _compute_innovations(f: Fitted) -> Iterator[tuple[ChangePoint, Array, Array]]:
-    """Where each block of time begins, and its innovations along the base columns, and along candidates beyond them."""
+    """The beginning of each block of time, its innovations along the base columns, and those along candidates beyond these."""
     n = f.n_base
     nothing = np.zeros((n + 1, n + 1))
     prior = add_prior(nothing, range(n), f.to_nominal / WIDE)
@@ -184,7 +184,7 @@ def _compute_innovations(f: Fitted) -> Iterator[tuple[ChangePoint, Array, Array]
 
 
 def _standardise(prior: Array, block: Array) -> Array:
-    """(n,): what a block's rotated data differ by from what is known, standardised by both uncertainties."""
+    """(n,): the difference of a block's rotated data from the prior's prediction, standardised by both uncertainties."""
     n = block.shape[1] - 1
     S = prior[:n, :n]
     expected = solve_triangular(S, prior[:n, n])

@@ -104,7 +104,7 @@ def _make_diagnosis(
     apart: tuple[Disagreement, ...],
     limits: Mapping[str, float],
 ) -> Diagnosis:
-    """What is reported; ``noise``: the fit of the noise floor, ``apart``: how flights disagree."""
+    """The result; ``noise``: the fit that gives the noise floor, ``apart``: how flights disagree."""
     first, outcome, left = evidence.first, c.outcome, c.left
     f, problem = first.fitted, first.problem
     credence = ranking.weigh_effects(evidence.last.problem, evidence.steps).within(c.share)
@@ -155,7 +155,7 @@ def complete_ranking(ranked: Sequence[Ranked], evidence: Evidence, c: Conclusion
 
 
 def _restate_claims(rows: Sequence[Ranked], c: Conclusion) -> list[Ranked]:
-    """The rows with the values as they are beside all that is claimed, and a covariance that knows of what remains."""
+    """The rows with values fitted beside all claimed effects, and a covariance that allows for the discrepancy."""
     o = c.outcome
     free = release_held(o.target, candidates=bool(o.extra))
     extra = [k for k, q in enumerate(free.candidates) if o.extra and q.effect in c.claims]
@@ -171,7 +171,7 @@ def _restate_claims(rows: Sequence[Ranked], c: Conclusion) -> list[Ranked]:
 
 
 def _find_change(target: Fitted, instants: Mapping[str, float], claimed: Sequence[str]) -> ChangePoint | None:
-    """From when on the model no longer holds; a step that is claimed is such an instant itself."""
+    """The instant from which the model no longer holds: that of a claimed step, else as :func:`find_change` tells it."""
     if target.observations[0].recorded.demodulated:
         return None  # neighbouring samples of a demodulated channel are not independent
     steps = [instant for e, instant in instants.items() if e in claimed]

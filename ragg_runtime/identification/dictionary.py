@@ -141,7 +141,7 @@ class Dictionary:
         """Of these terms the recorded ones, and time."""
 
     def with_terms(self, terms: Sequence[Term]) -> Dictionary:
-        """The same of other terms, which may be of further functions: of auxiliary channels less their means."""
+        """The dictionary of other terms, whose functions of auxiliary channels may be new."""
         dictionary = copy(self)
         names = dict.fromkeys(n for t in terms for n in t.channels if n not in self._size)
         dictionary._size = self._size | self._measure([*names])
@@ -176,7 +176,7 @@ class Dictionary:
         return x
 
     def make_chunks(self, r: Record, chosen: Sequence[Term]) -> Iterator[tuple[slice, Singles]]:
-        """Of some terms, a few at a time, the places and their series (terms, N) over ``size``, zero where not valid."""
+        """Places of the chosen terms, a few at a time, and their series (terms, N) over ``size``, zero where not valid."""
         carriers = {
             h: make_carrier(r, h).astype(np.float32) for h in dict.fromkeys(t.harmonic for t in chosen)
         }

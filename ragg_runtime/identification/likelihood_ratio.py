@@ -69,7 +69,7 @@ class Test:
 
 
 def project(T: Array, onto: int) -> Array:
-    """What is left of the later columns once the first ``onto`` are projected out."""
+    """The later columns with the first ``onto`` projected out."""
     return T[onto:, onto:]
 
 
@@ -77,7 +77,7 @@ WEAKEST = 0.3  # share of the floor of columns below which a direction of severa
 
 
 def find_basis(P: Array, columns: Sequence[int], floor: Array, weakest: float = WEAKEST) -> Array:
-    """(rows, k): orthonormal directions of those of some ``columns`` of P that have a norm above ``floor``."""
+    """(rows, k): orthonormal basis of those ``columns`` of P whose norm is above ``floor``."""
     testable = [k for k in columns if np.linalg.norm(P[:, k]) > floor[k]]
     if not testable:
         return P[:, []]
@@ -209,7 +209,7 @@ DIRECTIONS = 1e-7  # relative size below which a direction of the tested columns
 
 @dataclass(frozen=True)
 class Scatter:
-    """How much more than they should the scores of some tests vary, (m,), and the degrees of freedom (m,) that tell it."""
+    """How many times more the scores of tests vary than they should, (m,), and degrees of freedom (m,) of this estimate."""
 
     inflation: Array
     freedom: Array

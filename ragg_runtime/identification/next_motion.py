@@ -184,7 +184,7 @@ class Knowledge:
 def find_motion(
     knowledge: Knowledge, worth: Callable[[Array], float], tones: Sequence[Sinusoid], duration: float
 ) -> list[Sinusoid]:
-    """One sinusoid about each axis: those whose R factor, once they have been flown for ``duration`` s, is worth most together."""
+    """One sinusoid about each axis: those that give the R factor of most ``worth`` once flown together for ``duration`` s."""
 
     def weigh(motion: Sequence[Sinusoid]) -> float:
         return worth(knowledge.fly(motion, duration))
@@ -324,7 +324,7 @@ class Alternatives:
         return Alternatives(knowledge, strengths)
 
     def separations(self, R: Array) -> list[tuple[float, float]]:
-        """Of every pair its separation and the spread, by an R factor of the known columns."""
+        """The separation of every pair, and its spread, by an R factor of the known columns."""
         return [
             strength.separation(_lower_block(np.hstack([R[:, others], R @ strength.directions]), len(others)))
             for strength, others in self.pairs.values()
@@ -335,7 +335,7 @@ class Alternatives:
         return float(np.sum(np.log1p([then**2 for then, _ in self.separations(R)])))
 
     def promise(self, motion: Sequence[Sinusoid], duration: float) -> list[Separation]:
-        """What so much, s, of a motion promises of every pair."""
+        """The separation of every pair now, and after ``duration`` s of a motion."""
         now = self.separations(self.known.root)
         then = self.separations(self.known.fly(motion, duration, LONGEST))
         return [Separation(*p, before, *s) for p, (before, _), s in zip(self.pairs, now, then, strict=True)]

@@ -177,7 +177,7 @@ class Scores:
         return np.asarray(sum(self.prepared.each(inner), -A @ A.T))
 
     def measure_scatter(self, places: NDArray[np.intp]) -> Scatter:
-        """How much more than they should the scores of some terms vary, each beside the term itself."""
+        """How many times more the scores of some terms vary than they should, each beside the term itself."""
         along, coefficient = self.along[places], (self.dot / self.norms**2)[places]
 
         def of(piece: Piece) -> Array:
@@ -189,7 +189,7 @@ class Scores:
 
 
 def make_dictionary(x: PreparedFlight) -> Dictionary:
-    """Of a flight, with the output that the model predicts, which holds none of the record's noise, if it is one and not channels."""
+    """The dictionary of a flight, with the output that the model predicts, free of the record's noise, where G_out was recorded."""
     o = x.observation
     if o.recorded.demodulated or len(o.series) != 1:
         return Dictionary(o.record)
@@ -246,7 +246,7 @@ def _find_line(s: Scores) -> tuple[float, ResidualTerm] | None:
 
 
 def pursue(s: Scores, tried: int = 0) -> Omnibus:
-    """The largest scores, one by one, while they are significant; ``tried``: of so many terms, if not of the dictionary's alone."""
+    """The largest scores, one by one, while they are significant; ``tried``: number of terms, if not of the dictionary's alone."""
     norm = s.norms
     tried = tried or int(np.sum(np.isfinite(norm)))
     z = s.dot / norm
@@ -359,7 +359,7 @@ def search_residual(f: Fitted, only: int | None = None) -> Remainder:
 def search(
     f: Fitted, extra: Sequence[int], random: Mapping[str, int], only: int | None = None
 ) -> tuple[Remainder, dict[str, Test]]:
-    """The same with ``extra`` candidate columns, and the tests of ``random`` effects, of which it has the places of their columns."""
+    """The same with ``extra`` candidate columns, and the tests of ``random`` effects (each with the place of its column)."""
     searches, sums = [], []
     for flight in range(len(f.prepared)):
         lean, projector, places = project_out(f, flight, extra, [*random.values()])

@@ -129,7 +129,7 @@ class Estimates:
         return Estimates(f.model, c.p, c.columns, c.in_scales, c.covariance)
 
     def select(self, effect: str | None) -> Estimates:
-        """Those of one effect, or, of none, of the instrument."""
+        """The estimates of one effect, or (``None``) of the instrument."""
         places = [k for k, c in enumerate(self.columns) if c.effect == effect]
         return replace(
             self,
@@ -156,7 +156,7 @@ class Estimates:
 
 
 def list_bounded_columns(f: Fitted) -> list[tuple[int, Column, DerivedParameter]]:
-    """The fitted columns of effects whose parameter cannot have any size, each with its place and that parameter."""
+    """The fitted columns of effects whose parameter is limited in size, each with its place and that parameter."""
     parameters = {f"{e.id}.{q.name}": q for e in f.model.effects for q in e.parameters}
     bounded = {name for name, q in parameters.items() if q.physical is not None or q.largest is not None}
     return [(n, c, parameters[c.name]) for n, c in enumerate(f.calibration.columns) if c.name in bounded]

@@ -43,7 +43,7 @@ class Ranked:
         return Ranked(effect, test, error, error, error)
 
     def with_estimates(self, estimates: Estimates, instant: float | None) -> Ranked:
-        """The same with the values of the effect, and the instant of a step, s."""
+        """The row with the estimates of the effect's parameters, and the instant of a step, s."""
         values = estimates.list_parameters()
         if instant is not None:
             values += (ParameterValue("t_step", accelerometer=None, value=instant, std=0.0, unit="s"),)
@@ -199,7 +199,7 @@ class Detectable:
 
 
 def list_detectable(f: Fitted, problem: ProjectedProblem) -> list[Detectable]:
-    """For each parameter of each effect that is testable."""
+    """The detectable size of each parameter of each testable effect."""
     rows = []
     left = np.linalg.norm(problem.P, axis=0)
     for e, columns in problem.candidates.items():
@@ -292,7 +292,7 @@ def weigh_sets(f: ProjectedProblem) -> Weights:
 
 
 def _measure_jointly(Q: Array, y: Array, length: NDArray[np.intp], sets: NDArray[np.intp]) -> Array:
-    """Chi-square (n,) of data y that sets (n, size) of blocks of columns of Q, each so long, explain together."""
+    """Chi-square (n,) of data y explained by sets (n, size) of blocks of columns of Q; ``length``: columns of each block."""
     start, G, d = np.cumsum(length) - length, Q.T @ Q, Q.T @ y
     chi2, lengths = np.zeros(len(sets)), length[sets]
     shapes = lengths @ (1 + np.max(length, initial=0)) ** np.arange(sets.shape[1])
