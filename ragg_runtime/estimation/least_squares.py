@@ -186,7 +186,7 @@ class Linear:
         damping = float(np.exp(optimize.brentq(excess, min(low, high - 1.0), high, xtol=1e-6)))
         return np.asarray(V @ (s * d / (s**2 + damping)))
 
-    def promised(self, step: Array) -> float:
+    def predict_decrease(self, step: Array) -> float:
         """Decrease that a step promises."""
         return self.decrement - float(np.sum((self.y - self.R @ step) ** 2))
 
@@ -226,20 +226,20 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST_TRI
     radius, faithful, trials = np.inf, False, 1
     mark, before = trials, at.cost
 
-    def ended(converged: bool, reason: str, faithful: bool = False) -> Minimum[L]:
+    def finish(converged: bool, reason: str, faithful: bool = False) -> Minimum[L]:
         return Minimum(x=x, at=at, converged=converged, reason=reason, faithful=faithful)
 
     if not np.isfinite(at.cost):
-        return ended(False, "the model output is not finite at the starting point")
+        return finish(False, "the model output is not finite at the starting point")
     while trials < most:
         if is_settled(at):
-            return ended(True, "no further gain", faithful)
+            return finish(True, "no further gain", faithful)
         step = at.within(radius)
         length = float(np.linalg.norm(step))
         end, ahead, tried = _correct_second_order(linearise, at, x, step)
         trials += tried
         fallen = at.cost - ahead.cost
-        ratio = fallen / at.promised(step) if np.isfinite(fallen) else -np.inf
+        ratio = fallen / at.predict_decrease(step) if np.isfinite(fallen) else -np.inf
         if ratio < POOR:
             radius = length * _shrink(float(at.y @ (at.R @ step)), fallen)
         elif ratio > GOOD:
@@ -249,18 +249,18 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST_TRI
             faithful = tried == 1 and abs(ratio - 1.0) < FAITHFUL and not np.isfinite(radius)
             creeps = ratio <= GOOD and fallen < RELATIVE * at.cost and at.decrement < SLOW * at.cost
             if creeps or (fallen < SETTLED and at.decrement < VALLEY):
-                return ended(True, "no significant gain")
+                return finish(True, "no significant gain")
         elif radius < 1e-9 * (1.0 + float(np.linalg.norm(x))):
             # where samples come and go with the parameters, or all is rounding, what is promised is not there
             if at.decrement < INDISTINGUISHABLE:
-                return ended(True, "no significant gain")
-            return ended(False, "no step reduces the misfit")
+                return finish(True, "no significant gain")
+            return finish(False, "no step reduces the misfit")
         if trials - mark >= PACE:
             gained, needed = (before - at.cost) * (most - trials), 2.0 * at.decrement * (trials - mark)
             if at.decrement > max(INDISTINGUISHABLE, SLOW * at.cost) and 0.0 < gained < needed:
-                return ended(False, f"no end in sight after {trials} trials")
+                return finish(False, f"no end in sight after {trials} trials")
             mark, before = trials, at.cost
-    return ended(is_settled(at), f"stopped after {most} trials")
+    return finish(is_settled(at), f"stopped after {most} trials")
 
 
 def _correct_second_order(
@@ -271,7 +271,7 @@ def _correct_second_order(
     ahead = linearise(end)
     room = CORRECTION * float(np.linalg.norm(step))
     for tried in range(1, CORRECTIONS + 1):
-        if at.cost - ahead.cost >= POOR * at.promised(step) or not np.isfinite(ahead.cost):
+        if at.cost - ahead.cost >= POOR * at.predict_decrease(step) or not np.isfinite(ahead.cost):
             return end, ahead, tried
         back = ahead.within(room)
         nearer = linearise(end + back)

@@ -133,7 +133,7 @@ def estimate_level(
     asked = len(quantities) + len(alternatives)
     alternatives = {n: x for n, x in alternatives.items() if _is_alternative(white, x, quantities, asked)}
     while len(parts) < MOST:
-        tests = {n: _test(u, n, x) for n, x in (*quantities.items(), *alternatives.items())}
+        tests = {n: _test_quantity(u, n, x) for n, x in (*quantities.items(), *alternatives.items())}
         follows = {n: t for n, t in tests.items() if t and t[0] + np.log(asked) < np.log(CHANGES)}
         best = max(follows, key=lambda n: (follows[n][1], n), default=None)
         if best is None or best in alternatives:
@@ -150,7 +150,7 @@ def _is_alternative(u: Array, variance: Array, quantities: Mapping[str, Array], 
     return bool(special.log_ndtr(-score_excess(X @ X.T)[0]) + np.log(asked) < np.log(CHANGES))
 
 
-def _test(u: Array, name: str, x: Array) -> tuple[float, float, LevelFactor] | None:
+def _test_quantity(u: Array, name: str, x: Array) -> tuple[float, float, LevelFactor] | None:
     """Whether the level of u (N,) is another in each group of a quantity x (N,): logarithm of the p-value that it is not, what that gains
     in description, and the level; ``None``: too few samples, or one interval of time.
 

@@ -96,7 +96,7 @@ def estimate_noise(
         )
     chosen = _choose_segments(o, most, samples)
     if o.recorded.demodulated:
-        return _estimate_of_channels(at, o)
+        return _estimate_channel_noise(at, o)
     parts = _fit_segments(at, o, None, chosen)
     apart: Array | None = None
     for _ in range(TURNS_OF_AXES):
@@ -236,7 +236,7 @@ def _estimate_spectra(
             filled = []
             for x in residuals:
                 series, lost = _fill(x.series, x.valid, model)
-                kept = np.maximum(x.kept_of(model if coloured else None) - lost, 0.0)
+                kept = np.maximum(x.measure_kept(model if coloured else None) - lost, 0.0)
                 filled.append(Stretch(series, rate, kept, low))
             model = estimate([*filled, *slow], band, spin)
         models.append(model)
@@ -316,17 +316,17 @@ def _divide_by_level(piece: Piece, m: int, outputs: int, loud: Array, columns: A
     return np.asarray(flat.reshape(wide.shape)[:, m])
 
 
-def _estimate_of_channels(at: LinearisationPoint, o: Observation) -> NoiseModel:
+def _estimate_channel_noise(at: LinearisationPoint, o: Observation) -> NoiseModel:
     """Within the demodulator's band the noise of G_out is taken as white; a sample of a seldom recorded channel counts for more."""
 
-    def left(piece: Piece) -> tuple[Array, float]:
+    def project(piece: Piece) -> tuple[Array, float]:
         white = piece.white[[*find_nonzero(piece.white[:-1]), True]]
         x = project_columns(white, piece.observation.record.valid)
         # The fit takes as many degrees of freedom as it has columns; an unknown gradient takes its own band.
         return x.rest, x.rank + sum(w.white.shape[1] for w in piece.windows)
 
     gain, more = o.recorded.noise_share(o.record), measure_information_per_sample(o.record)
-    ((rest, taken),) = pass_over(at, o, _make_unit_noise(o, None), left)
+    ((rest, taken),) = pass_over(at, o, _make_unit_noise(o, None), project)
     free = len(rest) * max(0.1, 1 - taken / (gain * more * len(rest)))
     sigma = float(np.sqrt(np.sum(rest**2) / gain / free))
     white = NoiseModel.white(o.record.rate, 1, sigma)

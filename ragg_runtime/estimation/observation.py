@@ -216,7 +216,7 @@ class Thin:
             slice(self.rows.start * self.step, (self.rows.stop - 1) * self.step + len(self.taps))
         )
 
-    def kept(self, x: Array) -> Array:
+    def decimate(self, x: Array) -> Array:
         """Series (..., N) over the :meth:`source`, thinned: (..., n), a copy."""
         return convolve(x, self.taps)[..., :: self.step].copy()
 

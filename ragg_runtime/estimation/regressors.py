@@ -204,7 +204,7 @@ def linearise(at: LinearisationPoint, o: Observation) -> Array:
     if o.thin is None:
         columns[-1] = o.data - observe_voltages(o, V)
     else:  # that of the whole record, thinned, for the outputs are a million times the noise
-        columns[-1] = o.thin.kept(compute_residual(at.model, o.thin.source(), at.p))
+        columns[-1] = o.thin.decimate(compute_residual(at.model, o.thin.source(), at.p))
     for k, c in enumerate((*at.base, *at.candidates)):
         instant = at.instants.get(c.effect or "")
         if instant is not None:

@@ -416,7 +416,7 @@ class ProjectedResidual:
         """(N,): what is left, zero where a sample is not valid."""
         return place_valid(self.rest, self.valid)
 
-    def kept_of(self, noise: Spectrum | None) -> Array:
+    def measure_kept(self, noise: Spectrum | None) -> Array:
         """As ``kept``, but gaps are not lost, and of ``noise`` that is not white: power at each frequency over its density.
 
         Columns that follow slow noise take what is slowest of it, and in return leave as much of it at frequencies beside: of white

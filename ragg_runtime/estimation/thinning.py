@@ -220,7 +220,7 @@ def _are_alike(at: LinearisationPoint, pieces: Sequence[Thin], whole: Sequence[A
         inside = ndimage.binary_erosion(o.record.valid, iterations=HALO)
         if 2 * np.sum(inside) < len(inside):
             return False  # too few samples to determine the rest
-        computed, expected = linearise(at, o)[:-1], thin.kept(columns)
+        computed, expected = linearise(at, o)[:-1], thin.decimate(columns)
         square = square + np.sum(expected[:, :, inside] ** 2, axis=(1, 2))
         off = off + np.sum((computed - expected)[:, :, inside] ** 2, axis=(1, 2))
     most = np.where(np.arange(len(off)) < len(at.base), ALIKE, NEAR)
@@ -241,7 +241,7 @@ def _has_line(at: LinearisationPoint, thin: Thin) -> bool:
 def _find_supported(thin: Thin) -> NDArray[np.bool_]:
     """(n,): which samples that are kept have nearly all that makes them."""
     weights = replace(thin, taps=np.abs(thin.taps) / np.sum(np.abs(thin.taps)))
-    return np.asarray(weights.kept(np.where(thin.whole.record.valid, 0.0, 1.0)) < MISSING)
+    return np.asarray(weights.decimate(np.where(thin.whole.record.valid, 0.0, 1.0)) < MISSING)
 
 
 def _keep_samples(thin: Thin) -> Observation:
@@ -249,15 +249,15 @@ def _keep_samples(thin: Thin) -> Observation:
     o, half = thin.whole, len(thin.taps) // 2
     r = o.record
 
-    def kept(x: Array, *, angle: bool = False) -> Array:
+    def decimate(x: Array, *, angle: bool = False) -> Array:
         x = np.nan_to_num(bridge_gaps(np.array(x), r.valid & np.isfinite(x)))
-        return thin.kept(np.unwrap(x) if angle else x)  # of a disc's angle turns may be missing
+        return thin.decimate(np.unwrap(x) if angle else x)  # of a disc's angle turns may be missing
 
-    series = tuple(kept(x) for x in o.series)
+    series = tuple(decimate(x) for x in o.series)
     record = replace(
         r,
         time=np.array(r.time[half :: thin.step][: thin.rows.stop]),
-        wide={n: kept(x, angle=is_disc_angle(n)) for n, x in r.channels.items()},
+        wide={n: decimate(x, angle=is_disc_angle(n)) for n, x in r.channels.items()},
         reading=None if r.reading is None else series[0],
         rate=r.rate / thin.step,
         valid=_find_supported(thin),

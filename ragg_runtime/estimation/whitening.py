@@ -54,7 +54,7 @@ class Piece:
         weights = self.observation.signs * (not self.observation.recorded.demodulated)
         return np.asarray(np.sum(self.columns[:, :, samples], axis=2) @ weights)
 
-    def observed(self, e: Array) -> Array:
+    def combine(self, e: Array) -> Array:
         """What residuals of the series (k, m, N), V, are of G_out (k, N); no unknown gradient."""
         e = unknown_gradient.take_out(e, self.windows, self.observation.record.valid)
         return combine_output(self.observation, e)
@@ -142,10 +142,10 @@ class PreparedFlight:
         places = [*range(n), *(n + np.flatnonzero(np.any(v[:, n:], axis=0)))]
         lean, rows = self.lean(places)
 
-        def left(piece: Piece) -> Array:
-            return piece.observed(piece.columns[-1] - np.tensordot(v[:, places], piece.columns[rows], 1))
+        def compute(piece: Piece) -> Array:
+            return piece.combine(piece.columns[-1] - np.tensordot(v[:, places], piece.columns[rows], 1))
 
-        return np.concatenate([*lean.each(left, chosen=chosen, whitened=False)], axis=1)
+        return np.concatenate([*lean.each(compute, chosen=chosen, whitened=False)], axis=1)
 
     def with_steps(self, instants: Mapping[str, float]) -> PreparedFlight:
         """The same with steps (effect -> instant, s)."""
@@ -204,11 +204,11 @@ class Projector:
         """(rows, k): the piece's rows of the orthonormal basis."""
         return np.asarray(piece.white[self.taken].T @ self.to_basis)
 
-    def left(self, piece: Piece, Q: Array) -> Array:
+    def project_residual(self, piece: Piece, Q: Array) -> Array:
         """(rows,): the whitened residual less its components along the basis."""
         return np.asarray(piece.white[-1] - Q @ self.along)
 
-    def explained(self, along: Array, gram: Array, scores: Array) -> Array:
+    def measure_explained(self, along: Array, gram: Array, scores: Array) -> Array:
         """(m,): chi-square that the first 1, 2, ... m of further columns explain if the priors hold the coefficients of the taken ones.
 
         ``along`` (m, k): their components along the basis; ``gram`` (m, m), ``scores`` (m,): their inner products beside it, with one

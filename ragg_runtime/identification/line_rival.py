@@ -100,13 +100,13 @@ def find_line_rival(
         line = find_best_line(fitted, beside)
         if line is None:
             continue
-        at_multiple, enough = line.chi2 - line.slip, chi2 - INDISTINGUISHABLE
+        at_multiple, least = line.chi2 - line.slip, chi2 - INDISTINGUISHABLE
         surely = line.log_p <= np.log(false_alarms.REMAINDER)
-        if line.slip >= SLIP and line.chi2 >= enough and surely:
+        if line.slip >= SLIP and line.chi2 >= least and surely:
             return LineAlternative(line=line, effects=effects, by_effects=chi2), ()
         # a line at the very multiple explains as much, or all but a small part
-        if len(effects) == 1 and at_multiple >= min(enough, CONSTANT * chi2):
-            steady.append(Steady(effects[0], others, line, exactly=at_multiple >= enough))
+        if len(effects) == 1 and at_multiple >= min(least, CONSTANT * chi2):
+            steady.append(Steady(effects[0], others, line, exactly=at_multiple >= least))
     return None, tuple(steady)
 
 
@@ -205,7 +205,7 @@ def _measure_lines(x: PreparedFlight, projector: Projector, frequencies: Array) 
 
     def sums(piece: Piece) -> Array:
         Q = projector.basis(piece)
-        right = np.column_stack([projector.left(piece, Q), Q])
+        right = np.column_stack([projector.project_residual(piece, Q), Q])
         parts = (_make_waves(x, piece, frequencies[part]) for part in split_range(len(frequencies), TOGETHER))
         return np.concatenate([np.dstack([X @ right, X @ X.transpose(0, 2, 1)]) for X in parts])
 

@@ -133,13 +133,13 @@ class Scores:
 
         def count_in(piece: Piece) -> T:
             Q = self.projector.basis(piece)
-            y = self.projector.left(piece, Q)
+            y = self.projector.project_residual(piece, Q)
             self.square += float(y @ y)
             self.samples += int(np.sum(piece.observation.record.valid))
             self.blocks.level(piece, y)
             self.spectrum.add(piece, y)
             right = np.column_stack([y, Q])
-            for at, x, X in self._whitened(piece, self.dictionary.terms):
+            for at, x, X in self._whiten_chunks(piece, self.dictionary.terms):
                 inner = X @ right
                 self.dot[at] += inner[:, 0]
                 self.along[at] += inner[:, 1:]
@@ -151,7 +151,7 @@ class Scores:
 
         return [*self.prepared.each(count_in)]
 
-    def _whitened(self, piece: Piece, terms: Sequence[Term]) -> Iterator[tuple[slice, Array, Array]]:
+    def _whiten_chunks(self, piece: Piece, terms: Sequence[Term]) -> Iterator[tuple[slice, Array, Array]]:
         return whiten_terms(self.prepared, self.dictionary, piece, terms, self.only)
 
     @property
@@ -161,16 +161,16 @@ class Scores:
         good = left2 > OWN * self.norm2
         return np.asarray(np.sqrt(np.where(good, left2, np.inf)))
 
-    def whitened(self, piece: Piece, places: Iterable[int]) -> Array:
+    def whiten(self, piece: Piece, places: Iterable[int]) -> Array:
         """(places, rows): the whitened series of some terms over a segment."""
         terms = [self.dictionary.terms[k] for k in places]
-        return np.concatenate([X for _, _, X in self._whitened(piece, terms)])
+        return np.concatenate([X for _, _, X in self._whiten_chunks(piece, terms)])
 
     def gram(self, places: NDArray[np.intp]) -> Array:
         """Inner products of some whitened terms, base projected out, by another pass over the flight."""
 
         def inner(piece: Piece) -> Array:
-            X = self.whitened(piece, places)
+            X = self.whiten(piece, places)
             return np.asarray(X @ X.T)
 
         A = self.along[places]
@@ -182,8 +182,8 @@ class Scores:
 
         def of(piece: Piece) -> Array:
             Q = self.projector.basis(piece)
-            X = (self.whitened(piece, places) - along @ Q.T).T
-            return Scatter.of(X, self.projector.left(piece, Q)[:, None] - X * coefficient)
+            X = (self.whiten(piece, places) - along @ Q.T).T
+            return Scatter.of(X, self.projector.project_residual(piece, Q)[:, None] - X * coefficient)
 
         return Scatter.from_sums(sum(self.prepared.each(of), np.zeros((3, len(places)))))
 
@@ -273,7 +273,7 @@ def pursue(s: Scores, tried: int = 0) -> Omnibus:
     gram, scores = G[np.ix_(picked, picked)], z[places[picked]]
     each = np.linalg.lstsq(gram, scores, rcond=None)[0] / norm[places[picked]]
     along = s.along[places[picked]]
-    explained = s.projector.explained(along / norm[places[picked], None], gram, scores)
+    explained = s.projector.measure_explained(along / norm[places[picked], None], gram, scores)
     return replace(
         nothing,
         log_p=first,

@@ -255,8 +255,8 @@ def weigh_effects(problem: ProjectedProblem, steps: Sequence[AddedEffect]) -> Pr
     total = sum(weights.values())
     of = {e: sum(w for s, w in weights.items() if e in s) / total for e in sorted(set().union(*weights))}
     sets = sorted((-w / total, tuple(sorted(s))) for s, w in weights.items())
-    enough = int(np.searchsorted(np.cumsum([-share for share, _ in sets]), HELD)) + 1
-    return Probabilities({e: min(1.0, p) for e, p in of.items()}, tuple(s for _, s in sets[:enough]))
+    count = int(np.searchsorted(np.cumsum([-share for share, _ in sets]), HELD)) + 1
+    return Probabilities({e: min(1.0, p) for e, p in of.items()}, tuple(s for _, s in sets[:count]))
 
 
 def weigh_sets(f: ProjectedProblem) -> Weights:

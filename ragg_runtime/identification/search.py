@@ -107,7 +107,7 @@ class Evidence:
             return strong_ones[effect]
         return self.last.problem.tests([e for e in self.last.chosen if e != effect])[effect]
 
-    def explained(self, o: Outcome) -> tuple[float, int]:
+    def measure_chi2(self, o: Outcome) -> tuple[float, int]:
         """Chi-square that an outcome's effects explain of what the model leaves without them, and with how many coefficients."""
         first = self.first
         testable = [e for e in o.effects if e in first.problem.candidates]

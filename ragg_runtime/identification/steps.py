@@ -163,7 +163,7 @@ def _sharpen(f: Fitted, sample: int, columns: Sequence[tuple[int, Column]]) -> i
     places = [f.n_base + n for n, _ in columns]
     pieces = [p for x in f.prepared for p in x.each(lambda p: p)]
     bases = [projector.basis(p) for p in pieces]
-    y = np.concatenate([projector.left(p, Q) for p, Q in zip(pieces, bases, strict=True)])
+    y = np.concatenate([projector.project_residual(p, Q) for p, Q in zip(pieces, bases, strict=True)])
     Q = np.concatenate(bases)
 
     def measure_gain(at: int) -> float:

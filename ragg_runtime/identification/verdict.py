@@ -246,7 +246,7 @@ def _compare_with_terms(evidence: Evidence, base: Sequence[Remainder], count: in
     """An outcome's effects, chosen of so many, with as many generic terms in searches of the residual of the model without effects."""
     if not o.effects:
         return Lead(0.0, 0, np.inf, ())
-    chi2, rank = evidence.explained(o)
+    chi2, rank = evidence.measure_chi2(o)
     charge = len(o.effects) * float(np.log(count)) + evidence.charge(o)
     ahead = _measure_lead(o, base, chi2, rank, charge)
     if o.remains:
@@ -280,9 +280,9 @@ def _find_better_kind(evidence: Evidence, o: Outcome) -> str | None:
 
 def _find_shared_term(chi2: float, base: Sequence[Remainder]) -> ResidualTerm | None:
     """The generic term, cosine and sine of it, that explains what an effect does, up to what the filter of such terms changes."""
-    enough = (1.0 - claims.SECOND_ORDER) * chi2
+    least = (1.0 - claims.SECOND_ORDER) * chi2
     for s in (s for b in base for s in b.searches if s.steady):
         both = [t.chi2 for t in s.steady[:2] if t.term.words == s.steady[0].term.words]
-        if sum(both) >= enough:
+        if sum(both) >= least:
             return s.steady[0]
     return None

@@ -83,7 +83,7 @@ def scored() -> tuple[Scores, Array, Array]:
     projector = whitening.make_projector(f.r_factors[0], f.n_base, ())
     scores = Scores(f.prepared[0], projector)
     (piece,) = scores.collect(lambda piece, y: piece)
-    X = scores.whitened(piece, range(len(scores.dictionary.terms)))
+    X = scores.whiten(piece, range(len(scores.dictionary.terms)))
     return scores, X, projector.basis(piece)
 
 
