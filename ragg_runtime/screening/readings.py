@@ -430,6 +430,8 @@ def _find_lines(x: Array, present: Mask, step: float) -> Mask:
     bend = np.where(present[2:] & present[1:-1] & present[:-2], np.abs(np.diff(x, 2)), np.nan)
     rough = bend[bend > 2 * step]
     finest = max(STRAIGHT * float(np.median(rough)) if len(rough) else 0.0, 2 * step)
+    if np.mean(bend <= finest) > HELD:  # a table's ramps, or what is read seldom and unevenly: made of lines
+        return filled
     for run in runs(bend <= finest):
         first, last = run.start, run.stop + 1
         kinks = bend[[max(first - 1, 0), min(run.stop, len(bend) - 1)]]
