@@ -57,11 +57,11 @@ def run(arguments: Sequence[str], base: Path, seconds: float | None = None) -> t
         start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
     ) as process:  # fmt: skip
         try:
-            said = process.communicate(timeout=seconds)[1]
+            stderr = process.communicate(timeout=seconds)[1]
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
-            said = process.communicate()[1]
-    return process.returncode, said[-1000:]
+            stderr = process.communicate()[1]
+    return process.returncode, stderr[-1000:]
 
 
 def state(base: Path) -> tuple[list[str], list[str], bool]:
@@ -73,19 +73,19 @@ def state(base: Path) -> tuple[list[str], list[str], bool]:
 def trial(command: str, base: Path, seconds: float) -> tuple[str, str]:
     """What became of a killed command (``old``, ``new``), and what was wrong, if anything."""
     arguments, new = COMMANDS[command]
-    status, said = run(arguments, base, seconds)
-    found = state(base)
-    if found not in (OLD, new) or (status == 0 and found != new) or status not in (0, -signal.SIGKILL):
-        return "broken", f"{status}, {found}: {said}"
-    undone = command == "add" and found == new
-    status, said = run(["remove", "model", "lag"] if undone else arguments, base)
+    status, stderr = run(arguments, base, seconds)
+    after = state(base)
+    if after not in (OLD, new) or (status == 0 and after != new) or status not in (0, -signal.SIGKILL):
+        return "broken", f"{status}, {after}: {stderr}"
+    undone = command == "add" and after == new
+    status, stderr = run(["remove", "model", "lag"] if undone else arguments, base)
     effects = state(base)[0]
     if status != 0 or effects != ([] if undone else new[0]):
-        return "broken", f"the next command: {status}, {effects}: {said}"
+        return "broken", f"the next command: {status}, {effects}: {stderr}"
     if command == "survey":
         assert len(json.loads((base / "s.json").read_text("utf-8"))["flights"]) == 1
     left = [p.name for p in (base / "model").iterdir() if p.name.startswith(".")]
-    return "new" if found == new != OLD else "old", ", ".join(left)
+    return "new" if after == new != OLD else "old", ", ".join(left)
 
 
 @pytest.mark.parametrize("command", ["add", "calibrate"])

@@ -64,8 +64,8 @@ class Evaluated:
         )
 
     def __call__(self, values: Mapping[str, Array | float]) -> dict[str, Array]:
-        found = self.function(*(values[n] for n in self.inputs))
-        return {n: np.asarray(v, dtype=float) for (n, _), v in zip(self.program.outputs, found, strict=True)}
+        y = self.function(*(values[n] for n in self.inputs))
+        return {n: np.asarray(v, dtype=float) for (n, _), v in zip(self.program.outputs, y, strict=True)}
 
 
 def neutral_values(effects: Sequence[Effect]) -> dict[sp.Symbol, sp.Expr]:
@@ -92,8 +92,8 @@ def signatures(effects: tuple[Effect, ...], order: Order) -> Evaluated:
 
 def si(unit: str) -> float:
     """Factor from a display unit to SI."""
-    known = units(G0)
-    return float(known.to_si(1.0, unit, known.base_unit(unit)))
+    registry = units(G0)
+    return float(registry.to_si(1.0, unit, registry.base_unit(unit)))
 
 
 def place(j: int) -> dict[str, float]:
@@ -174,12 +174,12 @@ SHAPES = ("f_0", "Q", "tau", "w")
 def _reference(effects: Mapping[str, Mapping[str, object]], kinematics: Kinematics = "platform") -> Record:
     """What the reference records: channels and the four voltages."""
     world = {"gravity": GRAVITY, "auxiliaries": AUXILIARIES, "kinematics": kinematics}
-    found = simulate(INSTRUMENT, MOTION_TRUE, DURATION, RATE, effects=effects, **world)
+    record = simulate(INSTRUMENT, MOTION_TRUE, DURATION, RATE, effects=effects, **world)
     late = float(effects.get("time-offset", {}).get("delta_t", 0.0))
-    channels = dict(found.channels) | {"time": found.time}
+    channels = dict(record.channels) | {"time": record.time}
     drift = float(effects.get("clock-drift", {}).get("epsilon", 0.0))
-    channels["d_temperature"] = _rate_of(TEMPERATURE).value(found.time)
-    recorded = found.time - drift * found.time
+    channels["d_temperature"] = _rate_of(TEMPERATURE).value(record.time)
+    recorded = record.time - drift * record.time
     skew, filtered = effects.get("imu-skew", {}), effects.get("imu-filter", {})
     for name, signals in (("a", _A), ("omegadot", [_rate_of(s) for s in _OMEGA])):
         b = float(filtered.get("b_a" if name == "a" else "b_w", 0.0))
@@ -188,13 +188,13 @@ def _reference(effects: Mapping[str, Mapping[str, object]], kinematics: Kinemati
             channels[f"d_{name}_{k}"] = _rate_of(_averaged(s, b)).value(recorded, by)
             channels[f"d2_{name}_{k}"] = _rate_of(_rate_of(_averaged(s, b))).value(recorded, by)
     for n, name in enumerate(RESPONSES):
-        channels[name] = _signal(np.random.default_rng(n), 0.0, 0.1).value(found.time)
-        channels |= {f"{name}_by_{q}": np.zeros_like(found.time) for q in SHAPES}
-    channels["G_out"] = found.G_out
-    phi = disc_angle(INSTRUMENT.spin_frequency, found.time)
-    spin = np.full(found.time.size, 2 * np.pi * INSTRUMENT.spin_frequency)
+        channels[name] = _signal(np.random.default_rng(n), 0.0, 0.1).value(record.time)
+        channels |= {f"{name}_by_{q}": np.zeros_like(record.time) for q in SHAPES}
+    channels["G_out"] = record.G_out
+    phi = disc_angle(INSTRUMENT.spin_frequency, record.time)
+    spin = np.full(record.time.size, 2 * np.pi * INSTRUMENT.spin_frequency)
     channels |= {"d_spin_angle": spin, "d2_spin_angle": 0 * spin}
-    return channels | {"cos_phi": np.cos(phi), "sin_phi": np.sin(phi)}, found.voltages
+    return channels | {"cos_phi": np.cos(phi), "sin_phi": np.sin(phi)}, record.voltages
 
 
 @cache
@@ -336,15 +336,15 @@ by_known_parameter = pytest.mark.parametrize(
 def test_the_chain_is_the_reference_where_no_effect_is(kinematics: Kinematics) -> None:
     """Otherwise the comparisons below would say nothing about the effects."""
     channels, V = _reference({}, kinematics)
-    found = model((), LIKE_REFERENCE, channels, {}, kinematics)
-    np.testing.assert_allclose(found, V, rtol=0, atol=1e-13 * rms(V))
+    values = model((), LIKE_REFERENCE, channels, {}, kinematics)
+    np.testing.assert_allclose(values, V, rtol=0, atol=1e-13 * rms(V))
 
 
 @pytest.mark.parametrize("order", [PAPER, EXACT], ids=["paper", "exact"])
 def test_the_whole_catalogue_at_neutral_values_changes_nothing(order: Order) -> None:
     channels, V = _nothing()
-    found = all_signatures(order)["V"]
-    np.testing.assert_allclose(found, model((), order, channels, {}), rtol=0, atol=1e-14 * rms(V))
+    voltage = all_signatures(order)["V"]
+    np.testing.assert_allclose(voltage, model((), order, channels, {}), rtol=0, atol=1e-14 * rms(V))
 
 
 @by_known_parameter
@@ -359,11 +359,11 @@ def test_signature_is_what_the_independent_formulation_does(effect, parameter) -
         return V - model((), order, channels, {})
 
     if effect.id in ONE_SIDED:
-        found = (4 * missing(h) - missing(2 * h) - 3 * missing(0.0)) / (2 * h)
+        slope = (4 * missing(h) - missing(2 * h) - 3 * missing(0.0)) / (2 * h)
     else:
-        found = (missing(h) - missing(-h)) / (2 * h)
+        slope = (missing(h) - missing(-h)) / (2 * h)
     expected = row(effect, parameter, order)
-    assert rms(found - expected) < TOLERANCE.get(effect.id, 1e-6) * rms(expected)
+    assert rms(slope - expected) < TOLERANCE.get(effect.id, 1e-6) * rms(expected)
 
 
 def test_signatures_are_finite_and_hardly_depend_on_the_order() -> None:
@@ -384,9 +384,9 @@ def test_the_extended_model_removes_the_effect(effect: Effect) -> None:
     """
     order = counted(effect)
     value = dict(ALONGSIDE.get(effect.id, {}))
-    own = [q for q in effect.parameters if q.fitted and not q.shape]
-    for n, q in enumerate(own):
-        size = 1.0 if q.name == "kappa" else reach(effect, q, 1e-3) * (1 - 0.1 * n / len(own))
+    fitted = [q for q in effect.parameters if q.fitted and not q.shape]
+    for n, q in enumerate(fitted):
+        size = 1.0 if q.name == "kappa" else reach(effect, q, 1e-3) * (1 - 0.1 * n / len(fitted))
         value[q.name] = value.get(q.name, 0.0) + size
     p = {effect.symbol(q).name: value[q.name] for q in effect.parameters if q.name in value}
     records: list[tuple[Kinematics, Record]] = [("platform", truth(effect, value))]
@@ -399,7 +399,7 @@ def test_the_extended_model_removes_the_effect(effect: Effect) -> None:
         if (
             kinematics == "platform"
             and order is not PAPER
-            and not any((effect.id, q.name) in FARTHEST for q in own)
+            and not any((effect.id, q.name) in FARTHEST for q in fitted)
         ):
             assert before > 1e-4 * rms(V)
 
@@ -407,16 +407,16 @@ def test_the_extended_model_removes_the_effect(effect: Effect) -> None:
 @by_effect
 def test_it_reads_the_channels_that_it_declares(effect: Effect) -> None:
     a = signatures((effect,), PAPER)
-    known = {q.name for q in (*DISC, *ACCELEROMETER)} | {c.name for c in MOTION}
-    known |= {"cos_phi", "sin_phi", "cos_j", "sin_j", "time"} | {
+    names = {q.name for q in (*DISC, *ACCELEROMETER)} | {c.name for c in MOTION}
+    names |= {"cos_phi", "sin_phi", "cos_j", "sin_j", "time"} | {
         effect.symbol(q).name for q in effect.parameters
     }
-    known |= {f"d_{c.name}" for c in MOTION} | {f"d2_{c.name}" for c in MOTION}
-    known |= {"d_spin_angle", "d2_spin_angle"}
+    names |= {f"d_{c.name}" for c in MOTION} | {f"d2_{c.name}" for c in MOTION}
+    names |= {"d_spin_angle", "d2_spin_angle"}
     declared = {*effect.channels, *(q.channel for q in effect.parameters if q.channel)}
     rates = {f"d_{name}" for name in declared}
-    known |= set(RESPONSES) if effect.memory else set()
-    assert set(a.inputs) - known <= declared | rates
+    names |= set(RESPONSES) if effect.memory else set()
+    assert set(a.inputs) - names <= declared | rates
     # An accelerometer's own misalignment may hide a channel from one signature, but not from the model.
     read = set(voltage((effect,), LIKE_REFERENCE).inputs)
     assert effect.memory or all({name, f"d_{name}"} & read for name in declared)
@@ -429,9 +429,9 @@ def test_it_can_be_shown_to_a_user() -> None:
 
 
 def test_every_effect_of_the_simulator_is_in_the_catalogue_with_its_parameters() -> None:
-    known = {e.id: e for e in EFFECTS}
+    catalogue = {e.id: e for e in EFFECTS}
     for id_, parameters in CATALOGUE.items():
-        mine = {q.name: q for q in known[id_].parameters}
+        mine = {q.name: q for q in catalogue[id_].parameters}
         assert list(mine) == list(parameters), id_
         for name, theirs in parameters.items():
             assert mine[name].shared != theirs.per_accelerometer, f"{id_}.{name}"

@@ -132,8 +132,8 @@ def evaluated(m: Model, inputs: dict[str, Array], p: Array, t: Array) -> Array:
 
 def under(ids: Sequence[str]) -> Model:
     """The model with effects of all stages under other ids."""
-    made = [e for e in catalogue() if e.id in CHOSEN]
-    return model(*(Effect(**{**vars(e), "id": i}) for i, e in zip(ids, made, strict=True)))
+    effects = [e for e in catalogue() if e.id in CHOSEN]
+    return model(*(Effect(**{**vars(e), "id": i}) for i, e in zip(ids, effects, strict=True)))
 
 
 def test_every_stage_under_ids_that_the_derivation_uses_itself() -> None:
@@ -147,9 +147,9 @@ def test_every_stage_under_ids_that_the_derivation_uses_itself() -> None:
 def list_constructs(e: Effect) -> set[str]:
     """Functions and powers in the chain of an effect, and the stages that it changes."""
     values = [value for _, value in accelerometer((e,)).tape.assignments]
-    found = {type(x).__name__ for v in values for x in v.atoms(sp.Function)}
-    found |= {str(x.exp) for v in values for x in v.atoms(sp.Pow)}
-    return found | {stage for stage in STAGES if getattr(e, stage) is not None}
+    names = {type(x).__name__ for v in values for x in v.atoms(sp.Function)}
+    names |= {str(x.exp) for v in values for x in v.atoms(sp.Pow)}
+    return names | {stage for stage in STAGES if getattr(e, stage) is not None}
 
 
 def test_effects_in_c_are_those_in_numpy() -> None:
@@ -192,8 +192,8 @@ X, Y, Z = sp.symbols("x y z", real=True)
 def test_no_derivative_is_left_open(e: sp.Expr) -> None:
     """Of functions of signs and moduli whose argument SymPy does not know to be real; against differences."""
     at, h = {X: 0.7, Y: 1.3, Z: -0.4}, 1e-6
-    found = partials(e)
+    slopes = partials(e)
     for s in at:
         ends = [e.subs(at | {s: at[s] + d}).evalf() for d in (h, -h)]
-        slope = found.get(s, sp.Integer(0)).subs(at).evalf()
+        slope = slopes.get(s, sp.Integer(0)).subs(at).evalf()
         assert float(slope) == pytest.approx(float(ends[0] - ends[1]) / (2 * h), abs=1e-6)

@@ -194,21 +194,21 @@ class Discrepancy:
         x = np.moveaxis(points * self.bounds, -1, 0)
         x[15] = self.spin
         motion = list(x[:17])
-        own = x[17:-1].reshape(-1, 4, *x.shape[1:])
-        k1, R = 1 + own[0], self.radius + own[1]
-        parameters = [k1, R, *own[2:]]
+        quantities = x[17:-1].reshape(-1, 4, *x.shape[1:])
+        k1, R = 1 + quantities[0], self.radius + quantities[1]
+        parameters = [k1, R, *quantities[2:]]
         phi = x[-1]
         full = np.zeros_like(phi)
         for j in range(4):
-            known = {
+            values = {
                 "radius": self.radius,
                 "K1": k1[j],
                 "k_VI": 1.0,
                 "cos_phi": np.cos(phi),
                 "sin_phi": np.sin(phi),
             }
-            known |= dict(zip((*MOTION_NAMES, "dR", *OWN), (*motion, *own[1:, j]), strict=True))
-            v = voltage((), PAPER, self.kinematics)(known | place(j))["V"]
+            values |= dict(zip((*MOTION_NAMES, "dR", *OWN), (*motion, *quantities[1:, j]), strict=True))
+            v = voltage((), PAPER, self.kinematics)(values | place(j))["V"]
             full = full + SIGNS[j] * v
         numbers = [*motion[:3], *self._numbers(*motion)]
         kept = np.zeros_like(phi)
@@ -240,13 +240,13 @@ def climb(error: Discrepancy, start: Array) -> float:
 @pytest.mark.parametrize("name", ENVELOPES)
 def test_no_search_exceeds_the_bound_and_it_is_not_loose(name: str) -> None:
     """Corners climbed from two starts."""
-    envelope, rng, found = ENVELOPES[name], np.random.default_rng(20240607), 0.0
+    envelope, rng, largest = ENVELOPES[name], np.random.default_rng(20240607), 0.0
     model = simplified(envelope)
     for _ in range(2):
         start = rng.choice([-1.0, 1.0], len(NAMES) + 1)
         start[-1] = rng.uniform(-1, 1)
-        found = max(found, climb(Discrepancy(envelope, model), start))
-    assert found <= sum(certified_bound(envelope, model).values()) < 3.5 * found
+        largest = max(largest, climb(Discrepancy(envelope, model), start))
+    assert largest <= sum(certified_bound(envelope, model).values()) < 3.5 * largest
 
 
 G0 = 9.8
@@ -313,8 +313,8 @@ def test_the_page_counts_parameters_as_the_code_does() -> None:
     assert f"{len(list_base_columns(load_packaged(), table_v()))} |" in text
     assert f"in {combinations(simplified())} combinations" in text
     assert f"instead of {combinations(collect())}," in text
-    there = {COEFFICIENT_PARAMETERS[k] for *_, powers in keys(collect()) for k, n in enumerate(powers) if n}
-    assert "vartheta_x" not in there
+    names = {COEFFICIENT_PARAMETERS[k] for *_, powers in keys(collect()) for k, n in enumerate(powers) if n}
+    assert "vartheta_x" not in names
     named = set(re.findall(r"`([a-z]+(?:-[a-z]+)+)`", text))
     assert len(named) > 10
     assert named <= {e.id for e in catalogue()}

@@ -51,6 +51,6 @@ def motion(draw: np.random.Generator, n: int) -> Array:
 
 def signal(p: Array) -> float:
     """k_ggi = sum k_VI K1 R, V s^2: what one s^-2 of gradient gives."""
-    own = p[2:].reshape(len(ACCELEROMETER), 4)
-    at = {q.name: own[n] for n, q in enumerate(ACCELEROMETER)}
+    parameters = p[2:].reshape(len(ACCELEROMETER), 4)
+    at = {q.name: parameters[n] for n, q in enumerate(ACCELEROMETER)}
     return float(np.sum(at["k_VI"] * at["K1"] * (p[0] + at["dR"])))

@@ -115,12 +115,12 @@ def of_model(c: Collected, t: Any, x: Sequence[Any], p: Sequence[Any]) -> Any:
 
     rates = dict(zip((m.name for m in MOTION), x, strict=True))
     motion = rates | {n: result.value(q, rates, number) for n, q in derived_motion().items()}
-    own = {name: p[2 + 4 * n : 6 + 4 * n] for n, name in enumerate(PER_ACCELEROMETER)}
-    own["k1"] = [k * gain for k, gain in zip(own["K1"], own["k_VI"], strict=True)]
-    own["R"] = [p[0] + dR for dR in own["dR"]]
+    parameters = {name: p[2 + 4 * n : 6 + 4 * n] for n, name in enumerate(PER_ACCELEROMETER)}
+    parameters["k1"] = [k * gain for k, gain in zip(parameters["K1"], parameters["k_VI"], strict=True)]
+    parameters["R"] = [p[0] + dR for dR in parameters["dR"]]
     phi, total = 2 * CONTEXT.pi * p[1] * t, real(0)
     for name in c.amplitudes:
         wave = CONTEXT.sin if name.endswith("s") else CONTEXT.cos
-        value = result.amplitude_value(derived_amplitude(c, name), own, motion, number)
+        value = result.amplitude_value(derived_amplitude(c, name), parameters, motion, number)
         total += value * wave(int(name[2]) * phi)
     return total

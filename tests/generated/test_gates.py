@@ -60,13 +60,13 @@ class Library:
         *first: int,
         angle: Array | None = None,
     ) -> Array:
-        series, found = np.ascontiguousarray(inputs), np.full((rows, len(t)), np.nan)
+        series, values = np.ascontiguousarray(inputs), np.full((rows, len(t)), np.nan)
         pointers = (ctypes.c_void_p * len(series))(*(row.ctypes.data for row in series))
         counts = map(ctypes.c_size_t, (*first, len(t)))
         further = None if angle is None else at(angle)
         call = getattr(self._library, f"ragg_{self._name}_{function}")
-        call(*counts, at(np.ascontiguousarray(t)), pointers, at(p), further, at(found))
-        return found
+        call(*counts, at(np.ascontiguousarray(t)), pointers, at(p), further, at(values))
+        return values
 
     def output(self, t: Array, inputs: Array, p: Array, angle: Array | None = None) -> Array:
         return self._call("output", 1, t, inputs, p, angle=angle)[0]
@@ -81,10 +81,10 @@ class Library:
         return self._call("derivatives", rows, t, inputs, p, j)
 
     def amplitudes(self, inputs: Array, p: Array, count: int) -> Array:
-        found = np.full((inputs.shape[1], count), np.nan)
-        for row, column in zip(found, np.ascontiguousarray(inputs.T), strict=True):
+        values = np.full((inputs.shape[1], count), np.nan)
+        for row, column in zip(values, np.ascontiguousarray(inputs.T), strict=True):
             getattr(self._library, f"ragg_{self._name}_amplitudes")(at(column), at(p), at(row))
-        return found.T
+        return values.T
 
 
 def build(
@@ -118,14 +118,14 @@ def test_check_shows_the_difference_and_the_command_that_mends_it(tmp_path, monk
     with pytest.raises(SystemExit) as end:
         main(["derive", "--check", "--out", str(root)])
     assert end.value.code == 2
-    said = capsys.readouterr().err
-    assert "Traceback" not in said
-    assert "missing: c/chain.h" in said
-    assert "not derived: by_hand.py" in said
-    lines = [line.strip() for line in said.splitlines()]
+    stderr = capsys.readouterr().err
+    assert "Traceback" not in stderr
+    assert "missing: c/chain.h" in stderr
+    assert "not derived: by_hand.py" in stderr
+    lines = [line.strip() for line in stderr.splitlines()]
     assert any(line.startswith("-") and "D1234(-K0*k1)" in line for line in lines)
     assert any(line.startswith("+") and "D1234(K0*k1)" in line for line in lines)
-    assert "make derive" in said
+    assert "make derive" in stderr
 
     main(["derive", "--out", str(root)])
     mended = capsys.readouterr().out
@@ -157,7 +157,7 @@ def test_generated_code_is_the_instrument_at_50_digits(library: Mapping[str, Lib
         ).T
         G = V[0] + V[1] - V[2] - V[3]
         size = 1e-13 * np.max(np.abs(V))
-        found = {
+        outputs = {
             "analytical.py": analytical.output(t, inputs, p),
             "analytical.c": library["analytical"].output(t, inputs, p),
             "folded.py": folded.output(t, inputs, p),
@@ -165,7 +165,7 @@ def test_generated_code_is_the_instrument_at_50_digits(library: Mapping[str, Lib
             "chain.py": chain.output(t, np.cos(angle), np.sin(angle), inputs, p),
             "chain.c": library["chain"].output(t, inputs, p),
         }
-        for name, output in found.items():
+        for name, output in outputs.items():
             np.testing.assert_allclose(output, G, rtol=0, atol=10 * size, err_msg=name)
         np.testing.assert_allclose(library["chain"].voltages(t, inputs, p), V, rtol=0, atol=size)
         voltages = chain.voltages(t, np.cos(angle), np.sin(angle), inputs, p)
@@ -205,8 +205,8 @@ def test_chain_and_signatures_equal_numpy(name: str, library: Mapping[str, Libra
     np.testing.assert_allclose(c.output(t, inputs, p), G, rtol=0, atol=4e-14 * size)
     for j in range(4):
         D = module.derivatives(j, t, *turning, inputs, module.values_of(j, p))
-        found = c.derivatives(j, t, inputs, p, len(D))
-        bad = np.any(np.abs(found - D) > 1e-10 * np.max(np.abs(D), axis=1, keepdims=True), axis=1)
+        derivatives = c.derivatives(j, t, inputs, p, len(D))
+        bad = np.any(np.abs(derivatives - D) > 1e-10 * np.max(np.abs(D), axis=1, keepdims=True), axis=1)
         assert not bad.any(), [n for (n, _), b in zip(module.ROWS, bad, strict=True) if b]
 
 
@@ -232,23 +232,23 @@ def cases(start: float, seed: int, count: int = 10) -> list[tuple[Array, Array, 
     ]
 
 
-def error_eotvos(found: Array, true: list[object], p: Array) -> float:
+def error_eotvos(values: Array, true: list[object], p: Array) -> float:
     """Largest difference from the 50-digit value, in Eo of gradient signal."""
-    difference = [float(fifty.real(float(g)) - v) for g, v in zip(found, true, strict=True)]
+    difference = [float(fifty.real(float(g)) - v) for g, v in zip(values, true, strict=True)]
     return float(np.max(np.abs(difference))) / draws.signal(p) / draws.EOTVOS
 
 
 def true_output(t: Array, inputs: Array, p: Array, model: Collected | None) -> list[object]:
     """At 50 digits: the instrument itself, or a collected model."""
     q = fifty.exact(p)
-    found = []
+    values = []
     for n, instant in enumerate(fifty.exact(t)):
         x = fifty.exact(inputs[:, n])
         if model is None:
-            found.append(fifty.output(instant, x, q))
+            values.append(fifty.output(instant, x, q))
         else:
-            found.append(fifty.of_model(model, instant, x, q))
-    return found
+            values.append(fifty.of_model(model, instant, x, q))
+    return values
 
 
 @pytest.mark.parametrize("start", SECONDS)
@@ -258,8 +258,8 @@ def test_outputs_within_a_millionth_of_an_eotvos(start, library) -> None:
     for t, inputs, p in cases(start, seed=1):
         true, of_simple = (true_output(t, inputs, p, model) for model in (None, simple))
         for name, right in (("analytical", true), ("folded", true), ("simplified", of_simple)):
-            found = [f(t, inputs, p) for f in (MODULES[name].output, library[name].output)]
-            worst[name] = max(worst.get(name, 0.0), *(error_eotvos(x, right, p) for x in found))
+            outputs = [f(t, inputs, p) for f in (MODULES[name].output, library[name].output)]
+            worst[name] = max(worst.get(name, 0.0), *(error_eotvos(x, right, p) for x in outputs))
     assert max(worst.values()) < 1e-6, worst
     assert worst["folded"] < 2e-7, worst  # the price of float64 channels is 1e-7
 
@@ -279,8 +279,8 @@ def test_fast_sine_and_cosine_are_good_to_the_last_bit(processor, most, tmp_path
     for axis, by_encoder in product((0, 1), (False, True)):
         inputs = np.zeros((15, len(t)))
         inputs[axis] = 1.0
-        found = model.output(t, inputs, p, t if by_encoder else None)
-        for instant, value in zip(t, found, strict=True):
+        output = model.output(t, inputs, p, t if by_encoder else None)
+        for instant, value in zip(t, output, strict=True):
             angle = fifty.real(float(instant))
             if not by_encoder:
                 angle *= 2 * fifty.CONTEXT.pi * fifty.real(spin)

@@ -48,10 +48,10 @@ def test_one_number_stands_for_all_and_lists_are_as_long_as_there_are_accelerome
     i = parse_instrument(text)
     assert i.accelerometers["k_VI"].shape == (8,)
     shorter = re.sub(r"K0 = \{ value = \[[^,]*, ", "K0 = { value = [", text)
-    with pytest.raises(UserError) as told:
+    with pytest.raises(UserError) as caught:
         parse_instrument(shorter)
-    assert "7 values" in told.value.message
-    assert "one number, or 8 (A1 ... A8)" in told.value.message
+    assert "7 values" in caught.value.message
+    assert "one number, or 8 (A1 ... A8)" in caught.value.message
 
 
 @pytest.mark.parametrize(
@@ -93,19 +93,19 @@ CALLED = ("north", "south", "east", "west")
 def test_what_is_far_off_its_sheet_is_called_by_its_name_there() -> None:
     angles = ((0.0, 1), (180.0, 1), (90.0, -1), (270.0, -1))
     four = [sheets.accelerometer(n, a, s) for n, (a, s) in zip(CALLED, angles, strict=True)]
-    known = parse_instrument(sheets.sheet([sheets.disc("A", four)], 4))
-    K1 = np.array(known.accelerometers["K1"])
+    instrument = parse_instrument(sheets.sheet([sheets.disc("A", four)], 4))
+    K1 = np.array(instrument.accelerometers["K1"])
     K1[1] *= 1.01
-    flight = flown_by(replace(known, accelerometers={**known.accelerometers, "K1": K1}), 60.0)
-    model = derive.derive_model((), (), known.form, known.layout)[0]
+    flight = flown_by(replace(instrument, accelerometers={**instrument.accelerometers, "K1": K1}), 60.0)
+    model = derive.derive_model((), (), instrument.form, instrument.layout)[0]
 
-    farthest = compare(model, known, [flight]).off_sheet[0]
+    farthest = compare(model, instrument, [flight]).off_sheet[0]
     assert farthest.name == "K1"
     assert farthest.as_json()["accelerometer"] == 2
     assert farthest.as_json()["accelerometer_name"] == "south"
-    assert {c.accelerometer_name for c, _ in list_base_columns(model, known)} == set(CALLED)
-    said = {"name": "K1", "accelerometer": 2, "value": 1.0, "std": 0.1, "unit": "mA/g"}
-    assert write_parameter({**said, **spell_name(2, "south")}).startswith("K1 of south = ")
+    assert {c.accelerometer_name for c, _ in list_base_columns(model, instrument)} == set(CALLED)
+    entry = {"name": "K1", "accelerometer": 2, "value": 1.0, "std": 0.1, "unit": "mA/g"}
+    assert write_parameter({**entry, **spell_name(2, "south")}).startswith("K1 of south = ")
 
 
 RUNS = (
@@ -160,16 +160,16 @@ def test_names() -> None:
 
 
 def test_names_that_are_words_of_c_and_python_work_beside_each_other() -> None:
-    made = [
+    effects = [
         from_expression("a-b", "transducer", "lambda*is", {"lambda": {"unit": "ug"}}),
         from_expression("a_b", "transducer", "lambda*in", {"lambda": {"unit": "ug"}}),
         from_expression(
             "Int", "transducer", "for*int + K_*C__is", {n: {"unit": "ug"} for n in ("for", "K_")}
         ),
     ]
-    own = replace(made[0], id="a--b", channels=("a-b", "a_b"), transducer=lambda i, f, p, c: i + p["lambda"] * (
+    hyphened = replace(effects[0], id="a--b", channels=("a-b", "a_b"), transducer=lambda i, f, p, c: i + p["lambda"] * (
         c.channel("a-b") + 10 * c.channel("a_b")))  # fmt: skip
-    m = load_files(derive_model([*made, own], [*made, own]))
+    m = load_files(derive_model([*effects, hyphened], [*effects, hyphened]))
     t, p = np.zeros(1), np.zeros(m.chain.SIZE)
     K1, gain, further = (2 + 4 * k for k in (7, 14, 15))
     p[K1 : K1 + 4] = p[gain : gain + 4] = 1.0
@@ -185,8 +185,8 @@ def test_names_that_are_words_of_c_and_python_work_beside_each_other() -> None:
 def test_an_instrument_of_such_names_is_exported(tmp_path: Path) -> None:
     (tmp_path / "model.toml").write_text(sheet())
     for form in ("c", "json"):
-        found = ragg("export", tmp_path, tmp_path / form, f"--{form}")
-        assert found.returncode == 0, found.stderr
+        process = ragg("export", tmp_path, tmp_path / form, f"--{form}")
+        assert process.returncode == 0, process.stderr
     effects = json.loads((tmp_path / "json" / "model.json").read_text())["effects"]
     assert [e["id"] for e in effects] == ["a-b", "a_b", "Int"]
     subprocess.run(
@@ -210,11 +210,11 @@ def test_columns_of_other_names_are_passed_over_with_a_note(tmp_path: Path) -> N
     text = [",".join(["time [s]", *columns])]
     text += [",".join([*map(repr, map(float, r)), "1", "2", "3", "4", "calm"]) for r in rows]
     (tmp_path / "flight.csv").write_text("\n".join(text) + "\n")
-    found = read_flight(tmp_path / "flight.csv", 9.8, accelerometers=parse_instrument(sheet()).layout)
-    assert {*found.channels} == {*x.channels, "oil-2"}
-    (note,) = (n for n in found.notes if n.startswith("skipped because of their names"))
+    flight = read_flight(tmp_path / "flight.csv", 9.8, accelerometers=parse_instrument(sheet()).layout)
+    assert {*flight.channels} == {*x.channels, "oil-2"}
+    (note,) = (n for n in flight.notes if n.startswith("skipped because of their names"))
     assert all(repr(n) in note for n in names)
-    assert "remark on the flight holds text; it is left out" in found.notes
+    assert "remark on the flight holds text; it is left out" in flight.notes
     (tmp_path / "short.csv").write_text("\n".join(line.partition(",")[2] for line in text) + "\n")
     with pytest.raises(UserError, match=r"time is missing[^$]*skipped because of their names .*'Temp °C'"):
         read_flight(tmp_path / "short.csv", 9.8)
@@ -228,8 +228,8 @@ def test_a_mapping_gives_identifiers(tmp_path: Path) -> None:
             parse_mapping(head + f"{json.dumps(text, ensure_ascii=False)} = 't'\n", tmp_path / "mapping.toml")
         assert "[columns]" in str(error.value.where)
     (tmp_path / "flight.csv").write_text("time [s],Öl °C [K],*/ [T]\n1,2,3\n2,3,4\n")
-    made = draft_mapping(tmp_path / "flight.csv").text.replace("# c_", "c_")
-    assert {"c_l_C", "c_"} <= {*parse_mapping(made, tmp_path / "mapping.toml").channels}
+    drafted = draft_mapping(tmp_path / "flight.csv").text.replace("# c_", "c_")
+    assert {"c_l_C", "c_"} <= {*parse_mapping(drafted, tmp_path / "mapping.toml").channels}
 
 
 def test_an_output_is_no_other_column() -> None:

@@ -54,13 +54,13 @@ def worst(i: Instrument, flight: Flight, inner: slice = slice(20, -20)) -> float
     """
     model, _ = derive.derive_model((), (), i.form, i.layout)
     p = make_vector(model, i)
-    found = []
+    differences = []
     for k, o in enumerate(i.layout.outputs):
         r = record(flight, i, k)
         for chain in (model.chain, replace(model.chain, sources={})):
             left = flight.outputs[o.name] - evaluate_output(chain, r, p, o)
-            found.append(float(np.max(np.abs(left[inner]))) / scale_factor(model, p, k))
-    return max(found)
+            differences.append(float(np.max(np.abs(left[inner]))) / scale_factor(model, p, k))
+    return max(differences)
 
 
 @pytest.mark.parametrize(("name", "head", "kinematics", "rotations"), [
@@ -123,8 +123,8 @@ def test_each_disc_turns_as_it_is_told() -> None:
     i = instrument("umbrella", sheets.EXACT)
     flight = fly(i, spin=["A:0.2", "C:0,3@0.02"])
     assert {"spin_angle_A", "spin_angle_C"} == {n for n in flight.channels if n.startswith("spin_angle")}
-    found, t = np.unwrap(flight.channels["spin_angle_A"]), flight.time
-    assert found == pytest.approx(2 * np.pi * 0.2 * t, abs=1e-12)
+    angle, t = np.unwrap(flight.channels["spin_angle_A"]), flight.time
+    assert angle == pytest.approx(2 * np.pi * 0.2 * t, abs=1e-12)
     assert flight.channels["spin_angle_C"] == pytest.approx(3 * np.sin(2 * np.pi * 0.02 * t), abs=1e-12)
     assert worst(i, flight) < LIMIT
 
@@ -180,11 +180,11 @@ def leaning() -> Instrument:
 def left(model: Model, flight: Flight, p: NDArray[np.float64]) -> float:
     """Rms of what a model leaves, Eo."""
     i = leaning()
-    found = flight.outputs["G_out"] - evaluate_output(
+    residual = flight.outputs["G_out"] - evaluate_output(
         model.chain, record(flight, i, 0), p, i.layout.outputs[0]
     )
     k_ggi = scale_factor(base(), make_vector(base(), i))
-    return float(np.std(found[20:-20])) / k_ggi
+    return float(np.std(residual[20:-20])) / k_ggi
 
 
 def base() -> Model:
@@ -195,11 +195,11 @@ def base() -> Model:
 def test_an_effect_of_a_direction_is_the_reference_s(id_: str) -> None:
     i = leaning()
     (effect,) = (e for e in catalogue() if e.id == id_)
-    known, rng = units(i.g0), np.random.default_rng(1)
-    sizes = {q: 3 * q.plausible * find_unit_factor(q.unit, known) for q in effect.parameters}
+    registry, rng = units(i.g0), np.random.default_rng(1)
+    sizes = {q: 3 * q.plausible * find_unit_factor(q.unit, registry) for q in effect.parameters}
     values = {q.name: size * rng.uniform(0.7, 1.3, 1 if q.shared else 3) for q, size in sizes.items()}
-    own = {n: v if len(v) > 1 else float(v[0]) for n, v in values.items()}
-    flight = flown(i, 30.0, kinematics="full", effects={id_: own})
+    parameters = {n: v if len(v) > 1 else float(v[0]) for n, v in values.items()}
+    flight = flown(i, 30.0, kinematics="full", effects={id_: parameters})
     model, _ = derive.derive_model((effect,), (), i.form, i.layout)
     p = make_vector(model, i)
     for q in effect.parameters:

@@ -74,9 +74,9 @@ def test_packets_are_read_and_broken_ones_left_out(tmp_path: Path) -> None:
     broken[40] ^= 0xFF
     raw = tmp_path / "raw.bin.gz"
     raw.write_bytes(gzip.compress(b"\x01\xaa" + packet + bytes(broken) + packet))
-    found = record.packets(gzip.decompress(raw.read_bytes()))
-    assert found.shape == (2, 8, 2, 3)
-    assert np.array_equal(found[0].reshape(-1), counts)
+    packets = record.packets(gzip.decompress(raw.read_bytes()))
+    assert packets.shape == (2, 8, 2, 3)
+    assert np.array_equal(packets[0].reshape(-1), counts)
     force, rate, saturated = record.read(raw)
     assert force.shape == rate.shape == (2, 8, 3)
     assert not saturated.any()

@@ -61,30 +61,30 @@ def flight_of(which: str) -> tuple[Instrument, Flight]:
 def compared(which: str) -> comparison.Together:
     sheet, flight = flight_of(which)
     model, _ = derive.derive_model((), (), sheet.form, sheet.layout)
-    (found,) = comparison.compare_outputs(fit(model, sheet, observe_flights([flight], sheet)))
-    return found
+    (together,) = comparison.compare_outputs(fit(model, sheet, observe_flights([flight], sheet)))
+    return together
 
 
 def test_three_discs_see_the_tensor_and_close() -> None:
-    found = compared("umbrella")
-    t, (_, flight) = found.tensor, flight_of("umbrella")
+    together = compared("umbrella")
+    t, (_, flight) = together.tensor, flight_of("umbrella")
     assert t is not None
     true = np.stack([flight.channels[f"Gamma_{c}"] for c in COMPONENTS])
-    off = (t.gamma - true[:, np.searchsorted(flight.time, found.time)] / 1e-9) / t.std[:, None]
+    off = (t.gamma - true[:, np.searchsorted(flight.time, together.time)] / 1e-9) / t.std[:, None]
     assert np.sqrt(np.mean(off**2)) < 1.5  # the calibration takes its own share
     assert 0.7 < t.quality < 1.4
-    assert not found.differences()
+    assert not together.differences()
 
 
 def test_complements_tell_their_noise() -> None:
-    found = compared("complements")
-    assert found.tensor is None
-    (told,) = found.differences()
-    assert told["outputs"] == ["G_out_A", "G_out_B"]
+    together = compared("complements")
+    assert together.tensor is None
+    (difference,) = together.differences()
+    assert difference["outputs"] == ["G_out_A", "G_out_B"]
     for channel, usual in (("inline", 2.0), ("cross", 1.0)):  # 2 Eo/sqrt(Hz) of the cross channel
-        noise = float(str(told[f"{channel}_Eo"]))
+        noise = float(str(difference[f"{channel}_Eo"]))
         assert noise == pytest.approx(usual * 2.0 * np.sqrt(0.2), rel=0.25)
-        assert noise == pytest.approx(float(str(told[f"expected_{channel}_Eo"])), rel=0.25)
+        assert noise == pytest.approx(float(str(difference[f"expected_{channel}_Eo"])), rel=0.25)
 
 
 AT = 71.3
@@ -227,8 +227,8 @@ def written(folder: Path, files: Mapping[str, str]) -> Path:
 @pytest.fixture(scope="module")
 def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = written(tmp_path_factory.mktemp("odd"), api.FORMS["c"](contents()))
-    given, derived = re.findall(r"largest difference (\S+) V", make_strictly(folder, "check"))
-    assert float(given) == 0.0
+    recorded, derived = re.findall(r"largest difference (\S+) V", make_strictly(folder, "check"))
+    assert float(recorded) == 0.0
     assert float(derived) < 1e-10  # the last bit of some of its 260,000 V
     return folder
 

@@ -25,15 +25,15 @@ HEADER = [f"{n} [{u}]" for n, u in UNITS.items()]
 
 def make_lines(*lines: str) -> list[DataTable]:
     """Records of N rows: numbers of any size, one missing in each column but the time."""
-    rng, found = np.random.default_rng(0), []
+    rng, tables = np.random.default_rng(0), []
     for line in lines or (None,):
         columns = [DataColumn("time", "s", np.arange(N) / RATE)]
         for name, unit in {**UNITS, "fuel": "kg"}.items():
             values = np.round(rng.normal(size=N), 9) * 10.0 ** rng.integers(-12, 12)
             values[rng.integers(0, N)] = np.nan
             columns += [DataColumn(name, unit, values)] if name != "time" else []
-        found.append(DataTable(tuple(columns), line))
-    return found
+        tables.append(DataTable(tuple(columns), line))
+    return tables
 
 
 def write(path: Path, tables: Sequence[DataTable]) -> Path:

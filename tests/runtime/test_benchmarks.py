@@ -66,9 +66,9 @@ def test_the_simulator_confirms_the_strength() -> None:
 
 
 def test_the_oracle_finds_what_is_in_the_recorded_motion() -> None:
-    found = fly.tested(Spec("ten", "with-temperature", 5, 4401))
-    assert found["hidden"] == "imu-acceleration-bias"
-    assert found["found"] and -30.0 < found["log10_p"] < -12.0
+    result = fly.tested(Spec("ten", "with-temperature", 5, 4401))
+    assert result["hidden"] == "imu-acceleration-bias"
+    assert result["found"] and -30.0 < result["log10_p"] < -12.0
 
 
 def test_what_is_outside_keeps_its_strength_beyond_the_catalogue() -> None:
@@ -135,19 +135,19 @@ def test_a_run_resumes_where_it_was_cut_off(tmp_path: Path, monkeypatch: pytest.
 
 
 def test_the_plan_is_large_enough_and_seeds_have_nothing_in_common() -> None:
-    every = [s for n in plan.REFERENCE for s in plan.specs(n)]
-    assert len({s.id for s in every}) == len(every)
-    assert {s.record for s in every if s.kind == "quiet"} == set(records.FIRST)
+    specs = [s for n in plan.REFERENCE for s in plan.specs(n)]
+    assert len({s.id for s in specs}) == len(specs)
+    assert {s.record for s in specs if s.kind == "quiet"} == set(records.FIRST)
     assert not {*plan.REFERENCE, plan.ABLATION} & set(plan.HELD)
-    assert sum(s.kind == "quiet" for s in every) >= 300 and sum(s.kind == "outside" for s in every) >= 100
-    assert {fly.name_of(s) for s in every if s.kind == "outside"} == set(fly.TERMS)
+    assert sum(s.kind == "quiet" for s in specs) >= 300 and sum(s.kind == "outside" for s in specs) >= 100
+    assert {fly.name_of(s) for s in specs if s.kind == "outside"} == set(fly.TERMS)
 
 
 def test_the_rival_is_given_the_same_model() -> None:
     t, x, p = instrument_and_motion(5000)
     true, phi = folded.output(t, x, p), 2 * np.pi * p[1] * t
-    found = write_function(program(p), np)(np.cos(phi), np.sin(phi), *x)
-    np.testing.assert_allclose(found, true, rtol=0, atol=1e-9 * np.max(np.abs(true)))
+    values = write_function(program(p), np)(np.cos(phi), np.sin(phi), *x)
+    np.testing.assert_allclose(values, true, rtol=0, atol=1e-9 * np.max(np.abs(true)))
 
 
 def test_what_is_timed_is_what_fifty_digits_say() -> None:
@@ -216,8 +216,8 @@ def test_it_is_named_first_or_one_that_is_stated_to_be_like_it(flight: WhitenedF
     o, rng = flight.oracle, np.random.default_rng(1)
     hidden = next(h for h in (o.drawn(effect, SIGMAS, rng) for _ in range(DIRECTIONS)) if h is not None)
     sim = fly.simulated(flight.world, {effect: hidden.values})
-    known = make_point(o.model, flight.world.known, make_vector(o.model, flight.world.known))
-    residual = linearise(known, observe(sim.flight(), flight.world.known))[-1]
+    point = make_point(o.model, flight.world.known, make_vector(o.model, flight.world.known))
+    residual = linearise(point, observe(sim.flight(), flight.world.known))[-1]
     field = flight.field(o.whitened(residual[None])[0] + flight.noise)
     chosen = choose(field)
     first = next(iter(chosen))

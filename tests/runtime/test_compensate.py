@@ -65,10 +65,10 @@ def test_the_truth_lies_within_the_stated_uncertainty_as_often_as_stated(kind: K
     scores = []
     for seed in (11, 12):
         _, x, c = flown(seed, kind, name)
-        found = c.compensate()
-        error = found.gradient - truth(x, c.demodulator)
+        result = c.compensate()
+        error = result.gradient - truth(x, c.demodulator)
         good = np.isfinite(error)
-        z = np.stack([error.real, error.imag]) / found.std
+        z = np.stack([error.real, error.imag]) / result.std
         scores.append(z[:, good][:, :: int(2 * RATE)])  # a low-pass of 0.2 Hz makes two seconds of one value
         assert np.mean(error[good]) == pytest.approx(0.0, abs=0.5)
     z = np.concatenate(scores, axis=1)
@@ -79,18 +79,18 @@ def test_the_truth_lies_within_the_stated_uncertainty_as_often_as_stated(kind: K
 def test_frozen_parameters_compensate_another_flight_as_well(kept: tuple[Any, ...], tmp_path: Path) -> None:
     model, _, two, _ = kept
     out, report = tmp_path / "o.parquet", tmp_path / "o.json"
-    said = run("compensate", model, two, "-o", out, "--calibration", "frozen", "--json", report)
-    assert "too near an end of the record for the low-pass: no value." in said
+    stdout = run("compensate", model, two, "-o", out, "--calibration", "frozen", "--json", report)
+    assert "too near an end of the record for the low-pass: no value." in stdout
     table = pq.read_table(out)
     assert table.schema.field("inline").metadata[b"units"] == b"Eo"
-    found = table.to_pandas()
-    assert list(found) == ["time", "inline", "cross", "inline_std", "cross_std", "quality"]
+    frame = table.to_pandas()
+    assert list(frame) == ["time", "inline", "cross", "inline_std", "cross_std", "quality"]
     g = truth(flights()[1], find_demodulator("fir", RATE))
-    g = g[np.searchsorted(flights()[1].time, found["time"])]
-    good = np.asarray(found["quality"] & ~int(Quality.MOTION) == 0)
-    assert not found["quality"].iloc[[0, -1]].any(), "it begins and ends where there are values"
+    g = g[np.searchsorted(flights()[1].time, frame["time"])]
+    good = np.asarray(frame["quality"] & ~int(Quality.MOTION) == 0)
+    assert not frame["quality"].iloc[[0, -1]].any(), "it begins and ends where there are values"
     for channel, true in (("inline", g.real), ("cross", g.imag)):
-        z = ((found[channel] - true) / found[f"{channel}_std"])[good][:: int(2 * RATE)]
+        z = ((frame[channel] - true) / frame[f"{channel}_std"])[good][:: int(2 * RATE)]
         assert 0.6 < np.mean(np.abs(z) < 1.0) < 0.76
     o = json.loads(report.read_text())
     assert (o["calibration"], o["converged"], o["frozen"]["holds"]) == ("frozen", True, True)
@@ -282,10 +282,10 @@ def test_what_is_kept_is_what_was_found_to_the_last_bit_with_its_history(kept: t
     model, _, _, c = kept
     m = api.load(model)
     saved = api.saved_calibration(m)
-    found = {(q["name"], q["accelerometer"]): q["value"] for q in c["parameters"]}
+    values = {(q["name"], q["accelerometer"]): q["value"] for q in c["parameters"]}
     for column, place in zip(saved.columns, saved.index, strict=True):
         value = saved.p[place] / column.unit_factor
-        assert value == pytest.approx(found[column.name, column.accelerometer], rel=1e-12)
+        assert value == pytest.approx(values[column.name, column.accelerometer], rel=1e-12)
     directory = dataclasses.replace(m.directory, calibration=saved.as_text())
     again = api.saved_calibration(dataclasses.replace(m, directory=directory))
     assert np.array_equal(again.information, saved.information)
@@ -314,18 +314,18 @@ def test_an_instrument_that_has_changed_is_told_with_what_would_explain_it(kept:
     m = api.load(kept[0])
     h = api.compare_frozen(m, [flights(2e-8)[1]])
     assert not h.change.holds
-    found = {s["name"]: s for s in h.as_json()["frozen"]["suspects"]}
-    assert max(s["share"] for s in found.values()) > 0.9
-    if "K1[1]" in found:
+    suspects = {s["name"]: s for s in h.as_json()["frozen"]["suspects"]}
+    assert max(s["share"] for s in suspects.values()) > 0.9
+    if "K1[1]" in suspects:
         expected = 2e-8 * float(m.instrument.accelerometers["K1"][0]) / (1e-3 / 9.8)  # in mA/g
-        assert found["K1[1]"]["change"] == pytest.approx(expected, rel=0.1)
+        assert suspects["K1[1]"]["change"] == pytest.approx(expected, rel=0.1)
     assert h.comparison.calibrated.rms_Eo > 1.5 * h.free.rms_Eo
 
 
 def test_what_is_compensated_by_a_calibration_that_does_not_hold_says_so(kept: tuple[Any, ...]) -> None:
-    found = api.compensate(api.load(kept[0]), [flights(1e-6)[1]], "frozen")
-    c = found.as_json()
-    assert np.all(found.series[0]["quality"] & int(Quality.CALIBRATION)), "no sample is good"
+    result = api.compensate(api.load(kept[0]), [flights(1e-6)[1]], "frozen")
+    c = result.as_json()
+    assert np.all(result.series[0]["quality"] & int(Quality.CALIBRATION)), "no sample is good"
     assert c["frozen"]["holds"] is False
     assert c["frozen"]["chi2"] > 100
     assert "does NOT hold" in c["notes"][0]
@@ -433,8 +433,8 @@ def test_drifting_gains_are_followed_and_constant_ones_left_alone() -> None:
     rms = {}
     for kind in ("self", "smoothed"):
         ((c,),) = prepare(load_packaged(), s.sheet, [x], kind).channels  # type: ignore[arg-type]
-        found = c.compensate()
-        z = ((found.gradient - truth(x, c.demodulator)).real / found.std[0])[:: int(2 * RATE)]
+        result = c.compensate()
+        z = ((result.gradient - truth(x, c.demodulator)).real / result.std[0])[:: int(2 * RATE)]
         rms[kind] = np.sqrt(np.nanmean(z**2))
     assert 0.7 < rms["smoothed"] < 1.4
     assert rms["self"] > 2.0

@@ -35,8 +35,8 @@ def powers(count: int) -> Array:
     return np.linspace(-1.0, 1.0, N) ** np.arange(count)[:, None]
 
 
-def mean_of(found: list[Array]) -> Array:
-    return np.asarray(np.exp(np.mean(np.log(found), axis=0)))
+def mean_of(densities: list[Array]) -> Array:
+    return np.asarray(np.exp(np.mean(np.log(densities), axis=0)))
 
 
 # --- density, lines, jumps ---
@@ -44,7 +44,7 @@ def mean_of(found: list[Array]) -> Array:
 
 def test_what_columns_take_of_the_noise_is_no_quiet() -> None:
     """White noise of a minute, fitted by 80 slow columns: its density below 1 Hz came out three times too small."""
-    found = []
+    densities = []
     for seed in range(12):
         rng = np.random.default_rng(seed)
         slow = np.fft.rfft(rng.normal(size=(80, 960)))
@@ -52,9 +52,9 @@ def test_what_columns_take_of_the_noise_is_no_quiet() -> None:
         flat = np.vstack([np.fft.irfft(slow, 960), rng.normal(size=960)])
         left = fit_columns(flat, np.ones(960, dtype=bool), RATE, None)
         assert left.rank == pytest.approx(80)
-        found.append(estimate([Stretch(left.rest, RATE, left.kept)]).psd(np.array([0.2, 0.5, 4.0])))
+        densities.append(estimate([Stretch(left.rest, RATE, left.kept)]).psd(np.array([0.2, 0.5, 4.0])))
         blind = estimate([Stretch(left.rest, RATE)]).psd(np.array([0.5]))
-    assert mean_of(found) == pytest.approx(2 / RATE, rel=0.25)
+    assert mean_of(densities) == pytest.approx(2 / RATE, rel=0.25)
     assert blind[0] < 0.5 * 2 / RATE
 
 
@@ -62,13 +62,13 @@ def test_noise_about_the_carrier_is_resolved() -> None:
     """Five times the density, 0.1 Hz wide, at twice the spin rate; where there is none the spectrum stays smooth."""
     f = np.fft.rfftfreq(9600, 1 / RATE)
     for size, expected in ((4.0, 5.0), (0.0, 1.0)):
-        found = []
+        densities = []
         for seed in range(6):
             x = np.fft.rfft(np.random.default_rng(seed).normal(size=9600))
             x *= np.sqrt(1.0 + size * np.exp(-0.5 * ((f - 0.5) / 0.05) ** 2))
             spectrum = estimate([Stretch(np.fft.irfft(x, 9600)[:N], RATE)], spin=0.25)
-            found.append(spectrum.psd(np.array([0.5, 0.8])) * RATE / 2)
-        assert mean_of(found) == pytest.approx([expected, 1.0], rel=0.4)
+            densities.append(spectrum.psd(np.array([0.5, 0.8])) * RATE / 2)
+        assert mean_of(densities) == pytest.approx([expected, 1.0], rel=0.4)
 
 
 def test_a_jump_to_which_slow_columns_bend_is_found() -> None:
@@ -118,12 +118,12 @@ def test_a_gap_holds_what_the_noise_makes_most_likely() -> None:
     pole, n = 0.95, 400
     C = toeplitz(pole ** np.arange(n))
     x = np.linalg.cholesky(C) @ np.random.default_rng(4).normal(size=n)
-    there = np.ones(n, dtype=bool)
-    there[[20, 90, 91, *range(200, 230)]] = False
-    filled = fill_gaps((x * there)[None], there, np.array([1.0, -pole, 0.0]))[0]
-    best = C[np.ix_(~there, there)] @ np.linalg.solve(C[np.ix_(there, there)], x[there])
-    assert filled[~there] == pytest.approx(best, abs=1e-6)
-    np.testing.assert_array_equal(filled[there], x[there])
+    present = np.ones(n, dtype=bool)
+    present[[20, 90, 91, *range(200, 230)]] = False
+    filled = fill_gaps((x * present)[None], present, np.array([1.0, -pole, 0.0]))[0]
+    best = C[np.ix_(~present, present)] @ np.linalg.solve(C[np.ix_(present, present)], x[present])
+    assert filled[~present] == pytest.approx(best, abs=1e-6)
+    np.testing.assert_array_equal(filled[present], x[present])
 
 
 # --- the level ---
@@ -153,9 +153,9 @@ def test_the_level_is_found_and_undone(name: str) -> None:
     }[name]
     level = estimate_level(loud * rng.normal(size=N), x, {})
     assert level.parts[0].name == name
-    found = level.of(x.__getitem__)
-    assert np.mean(found**2) == pytest.approx(1.0)
-    assert np.std(found / loud) < 0.2 * np.mean(found / loud)
+    values = level.of(x.__getitem__)
+    assert np.mean(values**2) == pytest.approx(1.0)
+    assert np.std(values / loud) < 0.2 * np.mean(values / loud)
     assert "level changes" in str(describe_level(level))
 
 
@@ -164,14 +164,14 @@ def test_what_a_random_effect_explains_best_is_left_to_its_test() -> None:
     rng = np.random.default_rng(9)
     (x, y), phi = rng.normal(size=(2, N)), np.arange(N) * 0.1
     across, along = np.abs(y * np.cos(phi) - x * np.sin(phi)), np.abs(x * np.cos(phi) + y * np.sin(phi))
-    known = {**quantities(rng), "input-rms": np.hypot(x, y), "input": across + along}
-    known |= {"input(0)": across, "input(2)": along}
+    terms = {**quantities(rng), "input-rms": np.hypot(x, y), "input": across + along}
+    terms |= {"input(0)": across, "input(2)": along}
     jitter = (0.8 * along + 0.3 * across) ** 2
     for loud, names in (
         (np.hypot(0.2 + across, 0.2 + along), ("input-rms", "input")),
         (0.2 + along, ("input(2)",)),
     ):
-        assert estimate_level(loud * rng.normal(size=N), known, {"jitter": jitter}).parts[0].name in names
+        assert estimate_level(loud * rng.normal(size=N), terms, {"jitter": jitter}).parts[0].name in names
     few = quantities(rng)
     share = (few["abs(a_x)"] * np.cos(few["phi"])) ** 2
     assert not estimate_level(np.sqrt(0.1 + share) * rng.normal(size=N), few, {"jitter": share}).parts
@@ -230,9 +230,9 @@ def test_noise_that_swells_is_told_from_white_noise_that_does(swells: bool) -> N
         drift = signal.lfilter([0.15], [1.0, -0.98], other)
         return np.asarray(level * (white + drift) if swells else level * white + drift)
 
-    (found,) = calibrated(loud, 200.0).noise
-    assert [p.name for p in found.level.parts] == ["abs(a_x)"]
-    assert found.level_first is swells
+    (noise,) = calibrated(loud, 200.0).noise
+    assert [p.name for p in noise.level.parts] == ["abs(a_x)"]
+    assert noise.level_first is swells
 
 
 def test_noise_of_a_narrow_band_is_known_though_one_sample_in_a_hundred_is_missing() -> None:
@@ -288,21 +288,21 @@ def wall(x: Array) -> Array:
 )
 def test_the_minimum_is_that_of_scipy_and_no_accepted_step_went_up(residual, start) -> None:
     costs: list[float] = []
-    found = minimise(problem(residual, costs), np.array(start), most=400)
+    minimum = minimise(problem(residual, costs), np.array(start), most=400)
     best = min(
         float(2 * optimize.least_squares(residual, start, method=m, max_nfev=2000).cost)
         for m in ("lm", "trf")
     )
-    assert found.converged
-    assert found.at.cost <= best + (2 * SETTLED if residual is wall else VALLEY)
-    assert found.at.cost <= costs[0]
+    assert minimum.converged
+    assert minimum.at.cost <= best + (2 * SETTLED if residual is wall else VALLEY)
+    assert minimum.at.cost <= costs[0]
 
 
 def test_a_model_that_does_not_follow_its_slope_has_not_converged() -> None:
-    found = minimise(lambda x: make_linear([5.0, 0.0], float(np.sum(np.abs(x)))), np.zeros(2))
-    assert not found.converged
-    assert "no step reduces the misfit" in found.reason
-    assert not is_settled(found.at)
+    minimum = minimise(lambda x: make_linear([5.0, 0.0], float(np.sum(np.abs(x)))), np.zeros(2))
+    assert not minimum.converged
+    assert "no step reduces the misfit" in minimum.reason
+    assert not is_settled(minimum.at)
 
 
 @pytest.mark.parametrize(("way", "trials"), [(1000, 22), (60, 60)])

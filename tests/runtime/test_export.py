@@ -125,14 +125,14 @@ def test_the_angular_acceleration_is_derived_as_python_does_it(
     m = api.load(model)
     x = read_flight(bare, m.instrument.g0)
     p = api.contents(m).p
-    found, k_ggi = evaluate_output(m.model.chain, record(x, m.instrument), p), scale_factor(m.model, p)
-    there = np.searchsorted(x.time, time - 1e-3)
-    assert len(there) == len(rows) - 1
+    output, k_ggi = evaluate_output(m.model.chain, record(x, m.instrument), p), scale_factor(m.model, p)
+    places = np.searchsorted(x.time, time - 1e-3)
+    assert len(places) == len(rows) - 1
     gaps = np.abs(np.subtract.outer(time, time[[0, 1498, 1499, 2791, 2792, -1]])).min(axis=1)
     away = gaps > (0.0 if which == "base" else 2.0)  # the lag's further derivatives begin anew after a gap
     # differences of the rates multiply their rounding, most of all near the ends: 1.01e-6 Eo there, 7e-8 in the median
-    assert np.max(np.abs(G - found[there])[away]) / k_ggi < 2e-6
-    assert np.median(np.abs(G - found[there])[away]) / k_ggi < 2e-7
+    assert np.max(np.abs(G - output[places])[away]) / k_ggi < 2e-6
+    assert np.median(np.abs(G - output[places])[away]) / k_ggi < 2e-7
     one = rows[0] + ",omegadot_y [rad/s^2]\n" + rows[1] + ",0"
     assert b"omegadot_x: the column is missing" in program(folder, one.encode()).stderr
     lines = [
@@ -148,11 +148,11 @@ def test_the_values_are_the_calibrated_ones(base: tuple[Path, Path, Path]) -> No
     m = api.load(model)
     saved = api.saved_calibration(m)
     assert not np.array_equal(saved.p, make_vector(m.model, m.instrument))
-    told = subprocess.run(
+    stdout = subprocess.run(
         [folder / "ragg_model", "--values"], capture_output=True, text=True, check=True
     ).stdout
-    assert [float(line.split()[2]) for line in told.splitlines()] == saved.p.tolist()
-    assert "K1[1] = " in told
+    assert [float(line.split()[2]) for line in stdout.splitlines()] == saved.p.tolist()
+    assert "K1[1] = " in stdout
     assert "calibrated" in (folder / "values.h").read_text()
 
 
@@ -302,8 +302,8 @@ def test_a_calibration_of_another_model_is_not_exported(
     copy = new_model(tmp_path)
     text = (model / "calibration.json").read_text().replace('"effects": []', '"effects": ["lag"]')
     (copy / "calibration.json").write_text(text)
-    told = run("export", copy, tmp_path / "c", "--c")
-    assert "values of model.toml: the saved calibration belongs to another model" in told
+    stdout = run("export", copy, tmp_path / "c", "--c")
+    assert "values of model.toml: the saved calibration belongs to another model" in stdout
 
 
 def test_an_effect_with_a_memory_is_refused_by_name(tmp_path: Path) -> None:
@@ -321,8 +321,8 @@ def test_the_command_follows_a_flight_within_its_uncertainty(
     flight = flights()[1].part(slice(0, 3200))
     write_flight(flight, tmp_path / "two.parquet")
     out = ("-o", tmp_path / "o.csv", "--json", tmp_path / "o.json")
-    told = run("compensate", model, tmp_path / "two.parquet", "--calibration", "online", *out)
-    assert "time constant 0.796 s" in told
+    stdout = run("compensate", model, tmp_path / "two.parquet", "--calibration", "online", *out)
+    assert "time constant 0.796 s" in stdout
     rows = np.genfromtxt(tmp_path / "o.csv", delimiter=",", names=True)
     assert len(rows) == 3200 / RATE / UPDATE - 1
     c = flight.channels

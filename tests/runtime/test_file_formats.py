@@ -55,17 +55,17 @@ def test_round_trip(tmp_path: Path, ending: str, lines: tuple[str, ...]) -> None
     if lines and ending == ".mat":
         lines = ("10", "20", "30")  # names of structures
     tables = make_lines(*lines)
-    found = content(write(tmp_path / f"x{ending}", tables))
+    parts = content(write(tmp_path / f"x{ending}", tables))
     expected = {t.line: {c.name: (c.unit, c.values) for c in t.columns} for t in tables}
-    same(expected, found, rtol=1e-15 if ending == ".xlsx" else 0.0)  # openpyxl writes 16 digits
+    same(expected, parts, rtol=1e-15 if ending == ".xlsx" else 0.0)  # openpyxl writes 16 digits
 
 
 def test_converted_there_and_back(tmp_path: Path) -> None:
     first = tmp_path / f"0{WRITTEN[0]}"
     write_tables(first, make_lines("7", "20.5"))
     for k, (_, after) in enumerate(itertools.pairwise((*WRITTEN, WRITTEN[0])), 1):
-        told = convert(next(tmp_path.glob(f"{k - 1}.*")), tmp_path / f"{k}{after}")
-        assert (told["lines"], told["rows"]) == (2, 120)
+        report = convert(next(tmp_path.glob(f"{k - 1}.*")), tmp_path / f"{k}{after}")
+        assert (report["lines"], report["rows"]) == (2, 120)
     same(content(first), content(tmp_path / f"{len(WRITTEN)}{WRITTEN[0]}"))
     with pytest.raises(UserError, match="itself"):
         convert(first, first)
@@ -89,10 +89,10 @@ def test_a_flight_keeps_every_bit(tmp_path: Path, suffix: str) -> None:
     x = flight(lost=(0, 7, 8, 299))
     path = tmp_path / f"x{suffix}"
     write_flight(x, path)
-    found = read_flight(path, G0)
-    assert np.array_equal(x.time, found.time) and np.array_equal(x.valid, found.valid)
-    assert dict(x.units) == dict(found.units)
-    for left, right in ((x.channels, found.channels), (x.outputs, found.outputs)):
+    copy = read_flight(path, G0)
+    assert np.array_equal(x.time, copy.time) and np.array_equal(x.valid, copy.valid)
+    assert dict(x.units) == dict(copy.units)
+    for left, right in ((x.channels, copy.channels), (x.outputs, copy.outputs)):
         assert list(left) == list(right)
         assert all(np.array_equal(v[x.valid], right[n][x.valid]) for n, v in left.items())
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
@@ -138,10 +138,10 @@ def test_parquet_of_other_tools(tmp_path: Path) -> None:
         switch=pa.array([True] * 50),
         nanoseconds=pa.array(1_772_000_000_000_000_001 + counts.astype(np.int64)),
     )
-    found = read_flight(path, G0)
-    assert np.array_equal(found.outputs["G_out"], counts)
-    assert np.flatnonzero(~found.valid).tolist() == [4]
-    assert any("'tags'" in n for n in found.notes)
+    copy = read_flight(path, G0)
+    assert np.array_equal(copy.outputs["G_out"], counts)
+    assert np.flatnonzero(~copy.valid).tolist() == [4]
+    assert any("'tags'" in n for n in copy.notes)
     for column in (pa.array(["x"] * 50), pa.array([None] * 50, pa.timestamp("ns"))):
         save(a_x=column)
         with pytest.raises(UserError, match="numbers"):
@@ -185,14 +185,14 @@ def test_netcdf_of_other_tools(tmp_path: Path, classic: bool) -> None:
                 vars(v)["_attributes"].update(attributes)
 
     save()
-    found = read_flight(path, G0)
-    assert found.instants and found.channels["count"][0] == 65534
-    assert found.time == pytest.approx(x.time - x.time[0])
-    there = np.setdiff1d(np.arange(50), [3, 11] if classic else [3, 9, 11])
-    assert found.channels["a_x"][there[:3]] == pytest.approx(G0 * (0.5 * packed[there[:3]] + 1.0))
-    assert np.flatnonzero(~found.valid).tolist() == ([3, 11] if classic else [3, 9, 11])
-    assert "state holds text; it is left out" in found.notes
-    (note,) = (n for n in found.notes if n.startswith("skipped"))
+    copy = read_flight(path, G0)
+    assert copy.instants and copy.channels["count"][0] == 65534
+    assert copy.time == pytest.approx(x.time - x.time[0])
+    places = np.setdiff1d(np.arange(50), [3, 11] if classic else [3, 9, 11])
+    assert copy.channels["a_x"][places[:3]] == pytest.approx(G0 * (0.5 * packed[places[:3]] + 1.0))
+    assert np.flatnonzero(~copy.valid).tolist() == ([3, 11] if classic else [3, 9, 11])
+    assert "state holds text; it is left out" in copy.notes
+    (note,) = (n for n in copy.notes if n.startswith("skipped"))
     assert "'crs' (a single value)" in note and "'line' (2)" in note
     for change, drop, what in (
         ({"a_x": ("t", np.zeros(50), {})}, "", "no unit"),
@@ -241,10 +241,10 @@ def test_tables_of_records_in_hdf5(tmp_path: Path) -> None:
         file["all"] = np.stack([x.time, *values], axis=1)
         file["all"].attrs.update({"columns": ["time", *names], "units": ["s", *units]})
     for name in "abcde":
-        found = read_flight(tmp_path / f"{name}.h5", G0)
-        assert not found.instants
-        assert np.diff(found.time) == pytest.approx(np.diff(x.time), abs=1e-9)
-        assert np.array_equal(found.channels["a_y"], x.channels["a_y"])
+        copy = read_flight(tmp_path / f"{name}.h5", G0)
+        assert not copy.instants
+        assert np.diff(copy.time) == pytest.approx(np.diff(x.time), abs=1e-9)
+        assert np.array_equal(copy.channels["a_y"], x.channels["a_y"])
 
 
 def test_a_workspace_of_matlab(tmp_path: Path) -> None:
@@ -267,8 +267,8 @@ def test_a_workspace_of_matlab(tmp_path: Path) -> None:
             file[n], letters = np.atleast_2d(whole[n]), np.array([[ord(c)] for c in v], np.uint16)
             file.create_dataset(f"units/{n}", data=letters).attrs["MATLAB_class"] = np.bytes_("char")
         file["#refs#/a"] = np.zeros(60)
-    found = read_flight(tmp_path / "y.mat", G0)
-    assert np.array_equal(found.channels["a_z"], x.channels["a_z"]) and "a" not in found.channels
+    copy = read_flight(tmp_path / "y.mat", G0)
+    assert np.array_equal(copy.channels["a_z"], x.channels["a_z"]) and "a" not in copy.channels
 
 
 def test_structures_in_a_record_belong_to_it(tmp_path: Path) -> None:
@@ -300,10 +300,10 @@ def test_a_workbook_is_not_computed_and_read_beyond_its_dimension(tmp_path: Path
     sheet.write_text(sheet.read_text().replace('<dimension ref="A1:B6"', '<dimension ref="A1:A3"'))
     shutil.make_archive(str(tmp_path / "y"), "zip", unpacked)
     shutil.move(tmp_path / "y.zip", path)
-    found = content(path)[None]
-    assert [(n, u) for n, (u, _) in found.items()] == [("time", "s"), ("v", "mV")]
+    tables = content(path)[None]
+    assert [(n, u) for n, (u, _) in tables.items()] == [("time", "s"), ("v", "mV")]
     # the file holds no value of the formula
-    np.testing.assert_array_equal(found["v"][1], [np.nan, 2.0, np.nan])
+    np.testing.assert_array_equal(tables["v"][1], [np.nan, 2.0, np.nan])
 
 
 MAPPING = """
@@ -324,10 +324,10 @@ def broken(data: bytes, trial: int, rng: np.random.Generator) -> bytes:
     """Cut off, or with some bytes changed."""
     if trial % 3 == 0:
         return data[: rng.integers(1, len(data))]
-    made = bytearray(data)
+    damaged = bytearray(data)
     for place in rng.integers(0, len(data), rng.integers(1, 6)):
-        made[place] = rng.integers(0, 256)
-    return bytes(made)
+        damaged[place] = rng.integers(0, 256)
+    return bytes(damaged)
 
 
 @pytest.mark.parametrize("ending", ENDINGS)
@@ -416,14 +416,14 @@ def test_a_flight_with_such_a_name_and_spikes_in_it(tmp_path, monkeypatch, capsy
     words = ["compare", "model", str(flight), "--json", "out.json", "--report", "out.html"]
     monkeypatch.setattr(sys, "argv", ["ragg", *words])
     main(words)
-    said = capsys.readouterr()
-    assert not {"\x1b", "\u202e"} & set(said.out)
-    assert r"\x1b[31m<script>alert(1)\u202e" in said.out
+    printed = capsys.readouterr()
+    assert not {"\x1b", "\u202e"} & set(printed.out)
+    assert r"\x1b[31m<script>alert(1)\u202e" in printed.out
     page = Path("out.html").read_text("utf-8")
     assert "<script>alert" not in page and "&lt;script&gt;alert(1)" in page
     result = json.loads(Path("out.json").read_text("utf-8"))
     assert result["provenance"]["flights"][0]["path"] == f"{STRANGE}.parquet"
-    assert SAID in said.out and SAID in page and any(SAID in note for note in result["notes"])
+    assert SAID in printed.out and SAID in page and any(SAID in note for note in result["notes"])
     assert "--json out.json --report out.html" in page
     for path in (Path("model", "model.toml"), flight):
         assert hashlib.sha256(path.read_bytes()).hexdigest() in page
@@ -436,8 +436,8 @@ def test_an_error_about_such_a_name(tmp_path, monkeypatch, capsys) -> None:
     with pytest.raises(SystemExit) as end:
         main(["compare", "model", f"{STRANGE}.csv"])
     assert end.value.code == 2
-    said = capsys.readouterr().err
-    assert not {"\x1b", "\u202e"} & set(said)
+    stderr = capsys.readouterr().err
+    assert not {"\x1b", "\u202e"} & set(stderr)
 
 
 @pytest.fixture(scope="module")

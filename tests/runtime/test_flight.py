@@ -52,29 +52,29 @@ Load = Callable[..., Flight]
 
 def test_units_and_fields(load: Load, tmp_path: Path) -> None:
     table = columns()
-    found = load(table)
-    assert found.channels["a_x"] == pytest.approx(table["a_x"] * G0)
-    assert found.channels["a_y"] == pytest.approx(table["a_y"] * G0 * 1e-3)
-    assert np.array_equal(found.channels["a_z"], table["a_z"])
-    assert found.channels["omega_x"] == pytest.approx(np.deg2rad(table["omega_x"]) / 3600)
-    assert found.channels["omega_z"] == pytest.approx(np.deg2rad(table["omega_z"]))
-    assert np.array_equal(found.outputs["G_out"], table["G_out"])
-    assert np.array_equal(found.time, table["time"])
-    assert (found.name, found.path, len(found.digest)) == ("record", tmp_path / "record.csv", 64)
-    assert found.rate == pytest.approx(RATE)
-    assert found.duration == pytest.approx(N / RATE)
-    assert found.valid[N // 8 : -N // 8].all()  # omegadot is derived, poorly at the ends
-    assert not found.time.flags.writeable
+    flight = load(table)
+    assert flight.channels["a_x"] == pytest.approx(table["a_x"] * G0)
+    assert flight.channels["a_y"] == pytest.approx(table["a_y"] * G0 * 1e-3)
+    assert np.array_equal(flight.channels["a_z"], table["a_z"])
+    assert flight.channels["omega_x"] == pytest.approx(np.deg2rad(table["omega_x"]) / 3600)
+    assert flight.channels["omega_z"] == pytest.approx(np.deg2rad(table["omega_z"]))
+    assert np.array_equal(flight.outputs["G_out"], table["G_out"])
+    assert np.array_equal(flight.time, table["time"])
+    assert (flight.name, flight.path, len(flight.digest)) == ("record", tmp_path / "record.csv", 64)
+    assert flight.rate == pytest.approx(RATE)
+    assert flight.duration == pytest.approx(N / RATE)
+    assert flight.valid[N // 8 : -N // 8].all()  # omegadot is derived, poorly at the ends
+    assert not flight.time.flags.writeable
 
 
 def test_auxiliary_channels_of_any_name_come_in_si(load: Load) -> None:
-    given = {"temperature": 20.0, "roll": 180.0, "fuel": 3.0, "B_x": 5e4, "valve": 1.0}
+    values = {"temperature": 20.0, "roll": 180.0, "fuel": 3.0, "B_x": 5e4, "valve": 1.0}
     units = {"temperature": "degC", "roll": "deg", "fuel": "t", "B_x": "nT", "valve": "1"}
-    found = load(columns() | {n: np.full(N, v) for n, v in given.items()}, units)
+    flight = load(columns() | {n: np.full(N, v) for n, v in values.items()}, units)
     expected = {"temperature": 293.15, "roll": np.pi, "fuel": 3000.0, "B_x": 5e-5, "valve": 1.0}
     for name, value in expected.items():
-        assert found.channels[name] == pytest.approx(np.full(N, value))
-    assert (found.units["temperature"], found.units["fuel"], found.units["valve"]) == ("K", "kg", "1")
+        assert flight.channels[name] == pytest.approx(np.full(N, value))
+    assert (flight.units["temperature"], flight.units["fuel"], flight.units["valve"]) == ("K", "kg", "1")
 
 
 def test_G_out_of_the_voltages(load: Load) -> None:
@@ -82,9 +82,9 @@ def test_G_out_of_the_voltages(load: Load) -> None:
     del table["G_out"]
     v = np.random.default_rng(2).normal(size=(4, N))
     table |= {f"V_{j + 1}": v[j] for j in range(4)}
-    found = load(table, {"V_1": "mV"})
-    assert found.outputs["G_out"] == pytest.approx(v[0] * 1e-3 + v[1] - v[2] - v[3])
-    assert any("G_out is derived" in note for note in found.notes)
+    flight = load(table, {"V_1": "mV"})
+    assert flight.outputs["G_out"] == pytest.approx(v[0] * 1e-3 + v[1] - v[2] - v[3])
+    assert any("G_out is derived" in note for note in flight.notes)
     wrong = load(table | {"G_out": v[0] * 1e-3 - v[1] + v[2] - v[3]}, {"V_1": "mV"})
     assert any("signs of the voltages" in note for note in wrong.notes)
 
@@ -92,16 +92,16 @@ def test_G_out_of_the_voltages(load: Load) -> None:
 def test_angular_acceleration_is_derived(load: Load) -> None:
     table = columns()
     table["omega_y"] = np.sin(2 * table["time"])
-    found = load(table)
-    assert found.channels["omegadot_y"] == pytest.approx(2 * np.cos(2 * table["time"]), abs=3e-4)
-    assert any("omegadot" in note for note in found.notes)
+    flight = load(table)
+    assert flight.channels["omegadot_y"] == pytest.approx(2 * np.cos(2 * table["time"]), abs=3e-4)
+    assert any("omegadot" in note for note in flight.notes)
     off = np.isin(np.arange(N), range(60, 90))  # without power
     powerless = {"a_z": np.where(off, np.nan, table["a_z"]), "omega_y": np.where(off, 0.0, table["omega_y"])}
     assert np.array_equal(load(table | powerless).lacking, off)
     names = [f"omegadot_{k}" for k in "xyz"]
-    given = load(table | dict.fromkeys(names, np.full(N, 7.0)), dict.fromkeys(names, "deg/s^2"))
-    assert given.channels["omegadot_y"] == pytest.approx(np.full(N, np.deg2rad(7)))
-    assert not given.notes
+    recorded = load(table | dict.fromkeys(names, np.full(N, 7.0)), dict.fromkeys(names, "deg/s^2"))
+    assert recorded.channels["omegadot_y"] == pytest.approx(np.full(N, np.deg2rad(7)))
+    assert not recorded.notes
 
 
 def test_a_gradient_that_violates_laplace_is_noted(load: Load) -> None:
@@ -119,9 +119,9 @@ def test_rows_that_a_file_has_twice_count_once(load: Load) -> None:
     """One file was appended to another, with an overlap; where the rows differ in a digit nobody knows which are right."""
     rows = np.r_[0:120, 80:N]
     doubled, whole = {n: v[rows] for n, v in columns().items()}, load(columns())
-    found = load(doubled)
-    assert "40 rows that the file has twice left out (the first at t = 5 s)" in found.notes
-    assert all(np.array_equal(found.channels[n], v, equal_nan=True) for n, v in whole.channels.items())
+    flight = load(doubled)
+    assert "40 rows that the file has twice left out (the first at t = 5 s)" in flight.notes
+    assert all(np.array_equal(flight.channels[n], v, equal_nan=True) for n, v in whole.channels.items())
     doubled["G_out"][150] += 1.0
     with pytest.raises(UserError, match=r"jump back by 2\.5 s"):
         load(doubled)
@@ -130,9 +130,9 @@ def test_rows_that_a_file_has_twice_count_once(load: Load) -> None:
 def test_a_row_whose_stamp_is_out_of_order_is_left_out(load: Load) -> None:
     table = columns()
     table["time"][[50, 120]] += [1.0, -1.0]
-    found = load(table)
-    assert "2 rows whose time stamp is out of order left out (the first after t = 3.0625 s)" in found.notes
-    assert len(found) == N and not found.present[[50, 120]].any()
+    flight = load(table)
+    assert "2 rows whose time stamp is out of order left out (the first after t = 3.0625 s)" in flight.notes
+    assert len(flight) == N and not flight.present[[50, 120]].any()
 
 
 def test_gaps_are_filled_in_and_marked(load: Load) -> None:
@@ -140,26 +140,26 @@ def test_gaps_are_filled_in_and_marked(load: Load) -> None:
     keep = np.ones(N, dtype=bool)
     keep[50:60] = False
     keep[120] = False
-    found = load({n: v[keep] for n, v in table.items()})
-    assert len(found) == N
+    flight = load({n: v[keep] for n, v in table.items()})
+    assert len(flight) == N
     # omegadot is derived; of runs as short as these nothing tells how good it is at their ends
     trusted = keep.copy()
     for first, last in ((0, 50), (60, N)):  # it is bridged over one sample
         poor = (last - first) // 8
         trusted[first : first + poor] = trusted[last - poor : last] = False
-    assert np.array_equal(found.valid, trusted)
-    assert found.time == pytest.approx(table["time"])
-    assert found.rate == pytest.approx(RATE)
-    assert np.array_equal(found.channels["a_z"][keep], table["a_z"][keep])
-    assert all(np.isfinite(v).all() for v in found.channels.values())
-    assert np.array_equal(np.isnan(found.outputs["G_out"]), ~keep)
-    assert any("2 gaps: 11 of 200 samples" in note for note in found.notes)
+    assert np.array_equal(flight.valid, trusted)
+    assert flight.time == pytest.approx(table["time"])
+    assert flight.rate == pytest.approx(RATE)
+    assert np.array_equal(flight.channels["a_z"][keep], table["a_z"][keep])
+    assert all(np.isfinite(v).all() for v in flight.channels.values())
+    assert np.array_equal(np.isnan(flight.outputs["G_out"]), ~keep)
+    assert any("2 gaps: 11 of 200 samples" in note for note in flight.notes)
     # One sample is hardly missed; the derivative knows nothing of the other side of a gap.
     whole = load(table)
     inside = np.r_[0:44, 77:120, 121:N]
     for name in ("omegadot_x", "omegadot_y", "omegadot_z"):
         true = whole.channels[name]
-        assert found.channels[name][inside] == pytest.approx(true[inside], abs=1e-3 * float(np.std(true)))
+        assert flight.channels[name][inside] == pytest.approx(true[inside], abs=1e-3 * float(np.std(true)))
 
 
 def test_empty_cells_are_marked(load: Load) -> None:
@@ -168,16 +168,16 @@ def test_empty_cells_are_marked(load: Load) -> None:
     table["G_out"][[9, 10]] = np.nan
     table["temperature"][np.arange(N) % 16 != 0] = np.nan  # sampled once a second
     table["temperature"][100:160] = np.nan
-    found = load(table, {"temperature": "K"} | {f"omegadot_{k}": "rad/s^2" for k in "xyz"})
+    flight = load(table, {"temperature": "K"} | {f"omegadot_{k}": "rad/s^2" for k in "xyz"})
     lost = np.zeros(N, dtype=bool)
     lost[[7, 9, 10]] = True
     lost[97:160] = True  # four seconds without a temperature
     lost[193:] = True  # and no later one to interpolate to
-    assert np.array_equal(found.valid, ~lost)
-    assert found.channels["temperature"] == pytest.approx(np.full(N, 290.0))
-    assert np.isfinite(found.channels["a_x"]).all()
-    assert any(note == "a_x: without a value at 1 sample, not used" for note in found.notes)
-    assert any(note.startswith("temperature") and "interpolated" in note for note in found.notes)
+    assert np.array_equal(flight.valid, ~lost)
+    assert flight.channels["temperature"] == pytest.approx(np.full(N, 290.0))
+    assert np.isfinite(flight.channels["a_x"]).all()
+    assert any(note == "a_x: without a value at 1 sample, not used" for note in flight.notes)
+    assert any(note.startswith("temperature") and "interpolated" in note for note in flight.notes)
 
 
 def edited(**changes: np.ndarray) -> dict[str, np.ndarray]:

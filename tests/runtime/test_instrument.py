@@ -60,9 +60,9 @@ def sure(sigma: str) -> str:
 
 
 def test_values_in_si() -> None:
-    found = parse_instrument(TEXT)
-    k = found.accelerometers
-    assert (found.radius, found.spin_frequency, found.g0) == (0.1, 0.25, 9.8)
+    instrument = parse_instrument(TEXT)
+    k = instrument.accelerometers
+    assert (instrument.radius, instrument.spin_frequency, instrument.g0) == (0.1, 0.25, 9.8)
     assert k["dR"] == pytest.approx([0, 30e-6, 35e-6, 25e-6])
     assert k["beta_x"] == pytest.approx([18 / 3600 * math.pi / 180] * 4)
     assert k["K0"] == pytest.approx([98e-6] * 4)
@@ -81,18 +81,18 @@ def test_a_quantity_is_written_as_people_do(text: str) -> None:
 
 def test_effects() -> None:
     cubic = '{ id = "cubic-input", K_iii = { value = [2, 0, 0, 0], unit = "ug/g^3" } }'
-    own = '{ id = "mine", stage = "transducer", add = "c*f_i^5", c = { value = 3, unit = "ug/g^5" } }'
-    found = parse_instrument(with_effects(f'["lag", {cubic}, {own}]'))
-    lag, cubic, mine = found.effects
+    table = '{ id = "mine", stage = "transducer", add = "c*f_i^5", c = { value = 3, unit = "ug/g^5" } }'
+    instrument = parse_instrument(with_effects(f'["lag", {cubic}, {table}]'))
+    lag, cubic, mine = instrument.effects
     assert lag == EffectSetting("lag")
-    assert lag.si("tau", "s", found.g0) is None
-    assert cubic.si("K_iii", "1/(m/s^2)^2", found.g0) == pytest.approx([2e-6 / 9.8**2, 0, 0, 0])
-    assert found.effect("cubic-input") is cubic
-    assert found.effect("arm-sag") is None
+    assert lag.si("tau", "s", instrument.g0) is None
+    assert cubic.si("K_iii", "1/(m/s^2)^2", instrument.g0) == pytest.approx([2e-6 / 9.8**2, 0, 0, 0])
+    assert instrument.effect("cubic-input") is cubic
+    assert instrument.effect("arm-sag") is None
     assert mine.expression is not None
     assert (mine.expression["stage"], mine.expression["add"]) == ("transducer", "c*f_i^5")
     assert mine.expression["params"]["c"]["unit"] == "ug/g^5"
-    assert mine.si("c", "1/(m/s^2)^4", found.g0) == pytest.approx([3e-6 / 9.8**4] * 4)
+    assert mine.si("c", "1/(m/s^2)^4", instrument.g0) == pytest.approx([3e-6 / 9.8**4] * 4)
 
 
 @pytest.mark.parametrize(
@@ -168,11 +168,11 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
 
 
 def test_edits_keep_everything_else() -> None:
-    given = {"dR": RawQuantity((1.0, 2.5, 3.0, 4.0), "um"), "K5": RawQuantity(7.0, "ug/g^2")}
-    text = set_parameters(TEXT, given)
-    found = parse_instrument(text)
-    assert found.accelerometers["dR"] == pytest.approx([1e-6, 2.5e-6, 3e-6, 4e-6])
-    assert found.accelerometers["K5"] == pytest.approx([7e-6 / 9.8] * 4)
+    quantities = {"dR": RawQuantity((1.0, 2.5, 3.0, 4.0), "um"), "K5": RawQuantity(7.0, "ug/g^2")}
+    text = set_parameters(TEXT, quantities)
+    instrument = parse_instrument(text)
+    assert instrument.accelerometers["dR"] == pytest.approx([1e-6, 2.5e-6, 3e-6, 4e-6])
+    assert instrument.accelerometers["K5"] == pytest.approx([7e-6 / 9.8] * 4)
     kept = [line for line in TEXT.splitlines() if not line.startswith("dR")]
     assert [line for line in text.splitlines() if line in kept] == kept
     assert "# with the ruler" in next(line for line in text.splitlines() if line.startswith("dR"))
@@ -209,11 +209,11 @@ def test_effects_are_added_to_any_form_of_the_list(head: str, tail: str) -> None
     ("sigma", "four"), [("0.01", [0.01] * 4), ("[0.1, 0.2, 0.3, 0.4]", [0.1, 0.2, 0.3, 0.4])]
 )
 def test_the_sheet_can_say_how_sure_it_is(sigma: str, four: list[float]) -> None:
-    known = parse_instrument(sure(sigma))
-    np.testing.assert_allclose(known.sigma("K1"), np.array(four) * 1e-3 / 9.8, rtol=1e-14)
-    np.testing.assert_allclose(known.sigma("K2"), 20e-6 / 9.8, rtol=1e-14)  # as sure as is plausible
+    instrument = parse_instrument(sure(sigma))
+    np.testing.assert_allclose(instrument.sigma("K1"), np.array(four) * 1e-3 / 9.8, rtol=1e-14)
+    np.testing.assert_allclose(instrument.sigma("K2"), 20e-6 / 9.8, rtol=1e-14)  # as sure as is plausible
     kept = parse_instrument(set_parameters(sure(sigma), {"K1": RawQuantity(10.5, "mA/g")}))
-    np.testing.assert_array_equal(kept.sigma("K1"), known.sigma("K1"))
+    np.testing.assert_array_equal(kept.sigma("K1"), instrument.sigma("K1"))
 
 
 EXAMPLE = (Path(__file__).parents[2] / "ragg_runtime" / "example.toml").read_text("utf-8")
@@ -246,9 +246,9 @@ def test_forms_are_read(table: str, form: Form) -> None:
 
 def test_new_writes_full_kinematics_where_the_sheet_has_no_form_and_says_so(tmp_path: Path) -> None:
     (tmp_path / "sheet.toml").write_text(sheet(""))
-    said = ragg("new", tmp_path / "from-sheet", "--from", tmp_path / "sheet.toml").stderr
-    assert "no [model]" in said
-    assert 'kinematics = "full"' in said
+    stderr = ragg("new", tmp_path / "from-sheet", "--from", tmp_path / "sheet.toml").stderr
+    assert "no [model]" in stderr
+    assert 'kinematics = "full"' in stderr
     assert (tmp_path / "from-sheet" / "model.toml").read_text().startswith(sheet("").rstrip())
     (tmp_path / "platform.toml").write_text(sheet("[model]"))
     m = api.new(tmp_path / "platform", tmp_path / "platform.toml")
@@ -338,10 +338,10 @@ S = scenario(5, trim="table-v", duration=80.0, rate=RATE)
 def flown(start: float) -> Flight:
     """A flight that begins when the disc has been turning for so many seconds, at whole turns (of 4 s) as at none."""
     turn = start % 4.0
-    made = simulate(
+    flight = simulate(
         S.instrument, S.motion, S.duration, S.rate, start=turn, gravity=S.gravity, noise=S.noise, seed=1
     ).flight()
-    return replace(made, time=made.time + (start - turn), began=None)
+    return replace(flight, time=flight.time + (start - turn), began=None)
 
 
 @pytest.mark.parametrize("start", [-3.0, 0.00037, 1802.0])
@@ -373,9 +373,9 @@ def test_instants_count_from_the_first_sample_and_the_sheet_may_say_otherwise() 
 def test_where_the_sheet_speaks_against_it_the_user_is_asked() -> None:
     x = flown(0.0)
     x = replace(x, time=x.time + 10.0, began=None)  # half a turn
-    with pytest.raises(UserError, match="angle_origin") as told:
+    with pytest.raises(UserError, match="angle_origin") as caught:
         screen(load_packaged(), S.sheet, x)
-    assert "at the first sample (t = 10 s), not at t = 0" in str(told.value)
+    assert "at the first sample (t = 10 s), not at t = 0" in str(caught.value)
     screen(load_packaged(), replace(S.sheet, angle_origin="first-sample"), x)
 
 
@@ -388,10 +388,10 @@ def test_what_is_converted_keeps_its_angle(stamp: str, tmp_path: Path) -> None:
     rows = [f"{stamp.format(10 + k / 8)},{','.join(map(str, rng.normal(size=7)))}" for k in range(64)]
     (tmp_path / "a.csv").write_text("\n".join([head, *rows]) + "\n")
     first = read_flight(tmp_path / "a.csv", 9.8)
-    told = convert(tmp_path / "a.csv", tmp_path / "b.csv")
+    report = convert(tmp_path / "a.csv", tmp_path / "b.csv")
     second = read_flight(tmp_path / "b.csv", 9.8)
     assert first.instants
     assert not second.instants
     assert second.time[0] == 0.0
     np.testing.assert_allclose(record(first, S.sheet).phi, record(second, S.sheet).phi, atol=1e-9)
-    assert any("time counts from" in n for n in told["notes"])
+    assert any("time counts from" in n for n in report["notes"])

@@ -115,8 +115,8 @@ def test_what_each_flight_alone_lacks_is_said_where_all_together_are_not_explain
     hidden = {"cubic-input": {"K_iii": [4e-8, 0.0, 0.0, 0.0]}}
     d = diagnosed(one, named_flight(one, "monday", hidden), named_flight(other, "tuesday"))
     assert (d.verdict, d.found) == ("unexplained", ())
-    said = [(x["flights"], x["found"], x["explained"]) for x in d.as_json()["disagree"]]
-    assert said == [(["monday"], ["cubic-input"], True), (["tuesday"], [], True)]
+    groups = [(x["flights"], x["found"], x["explained"]) for x in d.as_json()["disagree"]]
+    assert groups == [(["monday"], ["cubic-input"], True), (["tuesday"], [], True)]
     assert "cubic-input in monday; nothing in tuesday" in str(d.as_json()["reason"])
 
 

@@ -77,12 +77,12 @@ def parse(text: str = TEXT) -> Mapped:
 
 def test_units_signs_scales_and_axes(tmp_path: Path) -> None:
     x = foreign(tmp_path / "x.csv")
-    found = read_flight(tmp_path / "x.csv", G0, mapping=parse())
-    assert found.time == pytest.approx(x.time)
+    flight = read_flight(tmp_path / "x.csv", G0, mapping=parse())
+    assert flight.time == pytest.approx(x.time)
     for name, values in {**x.channels, **x.outputs}.items():
-        read = {**found.channels, **found.outputs}[name]
+        read = {**flight.channels, **flight.outputs}[name]
         assert read == pytest.approx(values, rel=1e-12, abs=1e-12), name
-    assert found.notes[0].startswith("read by mapping.toml (SHA-256 ")
+    assert flight.notes[0].startswith("read by mapping.toml (SHA-256 ")
 
 
 def test_the_axes_turn_places_too() -> None:
@@ -94,11 +94,11 @@ def test_the_axes_turn_places_too() -> None:
         for n, _ in columns
     }
     lines = "".join(f'{n} = {{ column = "{n}", unit = "{u}" }}\n' for n, u in units.items())
-    found = read_flight(
+    flight = read_flight(
         {"T": x.time, **dict(columns)}, G0, mapping=parse(f"{head}[columns]\n{lines}[axes]{tail}")
     )
-    assert [found.channels[f"mass_{k}"][0] for k in "xyz"] == [1.0, 0.0, -2.0]
-    assert np.array_equal(found.channels["a_z"], -x.channels["a_z"])
+    assert [flight.channels[f"mass_{k}"][0] for k in "xyz"] == [1.0, 0.0, -2.0]
+    assert np.array_equal(flight.channels["a_z"], -x.channels["a_z"])
 
 
 @pytest.mark.parametrize(
@@ -240,14 +240,14 @@ def test_names_of_loggers_are_known(tmp_path: Path, header: str, wanted: str) ->
     rows = "".join(f"{k / 16}" + f",{k % 7}.5" * len(names) + "\n" for k in range(20))
     (tmp_path / "x.csv").write_text(f"{header}\n{rows}")
     d = draft_mapping(tmp_path / "x.csv")
-    made, long = tomllib.loads(d.text), {"a": "a", "w": "omega"}
+    toml, long = tomllib.loads(d.text), {"a": "a", "w": "omega"}
     expected = {
         "G_out" if w == "G" else f"{long[w[0]]}_{'xyz'[int(w[1])]}": name
         for name, w in zip(names, wanted.split(), strict=True)
         if w != "-"
     }
-    assert {*made["columns"]} == {*expected} and made["time"]["column"] != "?", d.text
-    assert all(expected[n].startswith(x["column"].rstrip("'")) for n, x in made["columns"].items()), d.text
+    assert {*toml["columns"]} == {*expected} and toml["time"]["column"] != "?", d.text
+    assert all(expected[n].startswith(x["column"].rstrip("'")) for n, x in toml["columns"].items()), d.text
     assert ("-(Y" in header) == ("scale = -1" in d.text)
 
 
@@ -260,8 +260,8 @@ def test_kept_with_the_model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     foreign(Path("x.csv"))
     write_flight(made(), "plain.csv")  # a file that has none of its columns is read as it is
     for path in ("x.csv", "plain.csv"):
-        (found,) = read_flights(path, G0, mapping=how)
-        assert found.channels["a_x"] == pytest.approx(made().channels["a_x"])
+        (copy,) = read_flights(path, G0, mapping=how)
+        assert copy.channels["a_x"] == pytest.approx(made().channels["a_x"])
     run = CliRunner().invoke(cli, ["new", "other", "--map", "none.toml"])
     assert isinstance(run.exception, UserError)
     assert not Path("other").exists()
@@ -288,7 +288,7 @@ def test_commands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("g0", [0.3, 9.80665])
 def test_g_is_g0_wherever_it_stands(g0: float) -> None:
-    known = Units(g0)
+    registry = Units(g0)
     for unit, si_unit, expected in (
         ("g", "m/s^2", g0),
         ("mg", "m/s^2", 1e-3 * g0),
@@ -303,7 +303,7 @@ def test_g_is_g0_wherever_it_stands(g0: float) -> None:
         ("g^2", "m^2/s^4", g0**2),
         ("ug/K", "m/s^2/K", 1e-6 * g0),
     ):
-        assert known.to_si(1.0, unit, si_unit) == pytest.approx(expected, rel=1e-14), unit
+        assert registry.to_si(1.0, unit, si_unit) == pytest.approx(expected, rel=1e-14), unit
 
 
 @pytest.mark.parametrize(

@@ -65,11 +65,11 @@ def step_of(n: int) -> HistoryStep:
     return HistoryStep("add", "2024-01-01T00:00:00Z", f"state-{n}")
 
 
-def state_number(found: ModelDir) -> int:
+def state_number(directory: ModelDir) -> int:
     """The number of the state, after a check that model and history are of the same one."""
-    n = int(found.instrument.radius)
-    assert found.text == text_of(n)
-    assert found.history[-1].effect == f"state-{n}"
+    n = int(directory.instrument.radius)
+    assert directory.text == text_of(n)
+    assert directory.history[-1].effect == f"state-{n}"
     return n
 
 
@@ -87,8 +87,8 @@ def entries(path: Path) -> list[str]:
 
 def test_a_model_of_nothing_but_model_toml(tmp_path: Path) -> None:
     (tmp_path / "model.toml").write_text(text_of(2))
-    found = load_model_dir(tmp_path)
-    assert (found.generated, found.history, found.instrument.radius) == (None, (), 2.0)
+    directory = load_model_dir(tmp_path)
+    assert (directory.generated, directory.history, directory.instrument.radius) == (None, (), 2.0)
     assert entries(tmp_path) == ["model.toml"]
 
 
@@ -97,15 +97,15 @@ def test_replace(tmp_path: Path, old: int, new: int) -> None:
     current = make(tmp_path, old)
     (current.path / "notes.txt").write_text("mine")
     (current.path / "model.toml").chmod(0o640)
-    made = change(current, new)
-    assert state_number(made) == state_number(load_model_dir(made.path)) == new
-    assert made.digest != current.digest
-    assert made.history[-1].digests == (compute_digest(text_of(old)), compute_digest(text_of(new)))
-    assert (made.path / "notes.txt").read_text() == "mine"
-    assert (made.path / "model.toml").stat().st_mode & 0o777 == 0o640
-    assert entries(made.path) == [x for x in [*NAMES, "notes.txt"] if x != "generated" or new % 3]
+    changed = change(current, new)
+    assert state_number(changed) == state_number(load_model_dir(changed.path)) == new
+    assert changed.digest != current.digest
+    assert changed.history[-1].digests == (compute_digest(text_of(old)), compute_digest(text_of(new)))
+    assert (changed.path / "notes.txt").read_text() == "mine"
+    assert (changed.path / "model.toml").stat().st_mode & 0o777 == 0o640
+    assert entries(changed.path) == [x for x in [*NAMES, "notes.txt"] if x != "generated" or new % 3]
     if new % 3:
-        assert (made.path / "generated" / "deep" / "chain.py").read_text().startswith(f"STATE = {new}\n")
+        assert (changed.path / "generated" / "deep" / "chain.py").read_text().startswith(f"STATE = {new}\n")
     assert entries(tmp_path) == ["model"]
 
 
@@ -114,15 +114,15 @@ def test_a_change_that_was_cut_off_is_dropped_and_an_edit_by_hand_is_not(tmp_pat
     change(first, 2)
     toml = first.path / "model.toml"
     toml.write_text(text_of(1))  # the history was written, model.toml was not
-    found = load_model_dir(first.path)
-    assert (state_number(found), len(found.history)) == (1, 1)
-    made = change(found, 4)
-    assert [s.effect for s in made.history] == ["state-1", "state-4"]
+    directory = load_model_dir(first.path)
+    assert (state_number(directory), len(directory.history)) == (1, 1)
+    second = change(directory, 4)
+    assert [s.effect for s in second.history] == ["state-1", "state-4"]
     assert len(json.loads((first.path / "history.json").read_text())["steps"]) == 2
     toml.write_text(text_of(4) + "# mine\n")
     assert [s.effect for s in load_model_dir(first.path).history] == ["state-1", "state-4"]
     with pytest.raises(UserError, match="changed in the meantime"):
-        change(made, 3)
+        change(second, 3)
 
 
 def test_a_calibration_saved_meanwhile_hinders_nobody_and_stays(tmp_path: Path) -> None:
@@ -131,37 +131,37 @@ def test_a_calibration_saved_meanwhile_hinders_nobody_and_stays(tmp_path: Path) 
     step = HistoryStep("calibrate", "2024-01-01T00:00:00Z")
     for kept in ("1", "2"):
         replace_model_dir(first, first.text, generated=code_of(1), step=step, calibration=kept)
-    found = change(first, 2)
-    assert [x.action for x in found.history] == ["add", "calibrate", "calibrate", "add"]
-    assert found.calibration == "2"
+    second = change(first, 2)
+    assert [x.action for x in second.history] == ["add", "calibrate", "calibrate", "add"]
+    assert second.calibration == "2"
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork and SIGKILL")
 def test_a_reader_beside_a_writer_that_is_killed_sees_whole_states(tmp_path: Path) -> None:
-    made = make(tmp_path, 1)
+    directory = make(tmp_path, 1)
     chance = random.Random(20240101)
     seen = set()
     for _ in range(12):
-        last = load_model_dir(made.path).digest
+        last = load_model_dir(directory.path).digest
         writer = os.fork()
         if writer == 0:
-            current = load_model_dir(made.path)
+            current = load_model_dir(directory.path)
             for n in range(int(current.instrument.radius), 100000):
                 current = change(current, 1 + n % 12)
             os._exit(1)
         try:
             deadline = time.monotonic() + 30
-            while load_model_dir(made.path).digest == last and time.monotonic() < deadline:
-                state_number(load_model_dir(made.path))
+            while load_model_dir(directory.path).digest == last and time.monotonic() < deadline:
+                state_number(load_model_dir(directory.path))
             time.sleep(chance.uniform(0.0, 0.02))
         finally:
             os.kill(writer, signal.SIGKILL)
             _, status = os.waitpid(writer, 0)
         assert os.waitstatus_to_exitcode(status) == -signal.SIGKILL, "the writer failed"
-        seen.add(state_number(load_model_dir(made.path)))
+        seen.add(state_number(load_model_dir(directory.path)))
     assert len(seen) > 3, "the writer never wrote"
-    assert state_number(change(load_model_dir(made.path), 5)) == 5
-    assert entries(made.path) == NAMES
+    assert state_number(change(load_model_dir(directory.path), 5)) == 5
+    assert entries(directory.path) == NAMES
 
 
 def test_what_fails_leaves_not_a_trace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -205,19 +205,19 @@ def test_messages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         load_model_dir(tmp_path / "none")
     with pytest.raises(UserError, match=r"model\.toml is missing"):
         load_model_dir(tmp_path)
-    made = make(tmp_path, 1)
+    directory = make(tmp_path, 1)
     with pytest.raises(UserError, match="exists already"):
         make(tmp_path, 1)
     monkeypatch.setattr(md, "_PATIENCE", 0.05)
-    with lock(made.path, 0.0), pytest.raises(UserError, match="another command"):
-        change(made, 2)
+    with lock(directory.path, 0.0), pytest.raises(UserError, match="another command"):
+        change(directory, 2)
     whole = {"action": "add", "effect": "lag", "time": "now"}
     odd = ({"before": 3}, {"before": {"calibrated": [1]}}, {"after": {"rms_Eo": "many"}}, {"flights": ["a"]})
     steps = (json.dumps({"steps": [whole | step]}) for step in odd)
     for bad in ("{", "[]", '{"steps": [{}]}', '{"steps": 3}', *steps):
-        (made.path / "history.json").write_text(bad)
+        (directory.path / "history.json").write_text(bad)
         with pytest.raises(UserError, match="history is damaged"):
-            load_model_dir(made.path)
+            load_model_dir(directory.path)
 
 
 # --- what is executed: effects of packages and of the user's own folder, never generated/ of a model directory ---
@@ -232,8 +232,8 @@ def mine(identifier: str) -> str:
 
 def forget() -> None:
     """What this process has derived and loaded so far."""
-    for known in (derive.derive_model, derive._load_installed, derive._execute_files):
-        known.cache_clear()
+    for cache in (derive.derive_model, derive._load_installed, derive._execute_files):
+        cache.cache_clear()
 
 
 @pytest.fixture(scope="module")
@@ -269,13 +269,13 @@ def test_effects_folder_is_refused_with_what_to_do(tmp_path: Path) -> None:
 
 
 def test_effects_of_the_folder_that_the_user_names(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    own = model.parent / "own"
-    own.mkdir()
-    (own / "mine.py").write_text(mine("mine"))
-    (own / "__init__.py").write_text("raise SystemExit('executed')")
+    folder = model.parent / "own"
+    folder.mkdir()
+    (folder / "mine.py").write_text(mine("mine"))
+    (folder / "__init__.py").write_text("raise SystemExit('executed')")
     with pytest.raises(UserError, match="unknown effect"):
         api.add(api.load(model), "mine")
-    monkeypatch.setenv("RAGG_EFFECTS", str(own))
+    monkeypatch.setenv("RAGG_EFFECTS", str(folder))
     m = api.load(model)
     assert "mine" in {e.id for e in m.model.candidates}
     assert effects()["mine"]["title"] == effects()["cubic-input"]["title"]
@@ -380,12 +380,12 @@ def test_a_request_depends_on_all_that_is_derived(tmp_path: Path, monkeypatch: p
         f"[{line.replace('ug/g^2', 'mg/g^2')}]",
         f"[{line.replace('unit =', 'shared = true, unit =')}]",
     ]
-    found = {derive.identify(parse_instrument(text.replace("effects = []", f"effects = {e}"))) for e in lists}
+    keys = {derive.identify(parse_instrument(text.replace("effects = []", f"effects = {e}"))) for e in lists}
     monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path))
     for source in ("# 1\n", "# 2\n"):
         (tmp_path / "a.py").write_text(source)
-        found.add(derive.identify(parse_instrument(text)))
-    assert len(found) == len(lists) + 2
+        keys.add(derive.identify(parse_instrument(text)))
+    assert len(keys) == len(lists) + 2
 
 
 def test_a_model_directory_is_not_imported_from(tmp_path: Path) -> None:
@@ -433,9 +433,9 @@ def test_without_a_compiler_numpy_serves_and_says_so_once(monkeypatch, tmp_path,
 @needs_compiler
 def test_library_is_made_once_and_anew_when_anything_changes(tmp_path, monkeypatch) -> None:
     first = compiler.compile_library(ONE, tmp_path)
-    made = first.stat().st_mtime_ns
+    stamp = first.stat().st_mtime_ns
     assert compiler.compile_library(ONE, tmp_path) == first
-    assert first.stat().st_mtime_ns == made
+    assert first.stat().st_mtime_ns == stamp
     assert compiler.compile_library({"one.c": "int one(void) { return 2; }\n"}, tmp_path) != first
     monkeypatch.setenv("CC", f"{compiler.find_compiler()[0]} -DX=1")
     assert compiler.compile_library(ONE, tmp_path) != first
@@ -449,9 +449,9 @@ def test_library_is_made_once_and_anew_when_anything_changes(tmp_path, monkeypat
 @needs_compiler
 def test_a_cache_that_others_can_write_to_is_not_used(tmp_path: Path) -> None:
     tmp_path.chmod(0o777)
-    made = compiler.compile_library(ONE, tmp_path)
-    assert made.parent != tmp_path
-    assert stat.S_IMODE(made.parent.stat().st_mode) == 0o700
+    library = compiler.compile_library(ONE, tmp_path)
+    assert library.parent != tmp_path
+    assert stat.S_IMODE(library.parent.stat().st_mode) == 0o700
     assert list(tmp_path.iterdir()) == []
 
 

@@ -47,15 +47,15 @@ def test_what_a_wide_band_gives() -> None:
 
 def test_lost_rates_are_predicted_from_those_beside_them() -> None:
     """A spline errs by a fortieth of such motion."""
-    rng, there = np.random.default_rng(3), np.ones(4800, dtype=np.bool_)
+    rng, present = np.random.default_rng(3), np.ones(4800, dtype=np.bool_)
     x = np.convolve(rng.standard_normal(4900), np.convolve(np.hanning(9), np.hanning(9)), "same")[:4800]
     for k in range(100, 4700, 150):
-        there[k : k + 3] = False
-    found = (predict_missing(x, there), bridge_gaps(x, there, smooth=True))
-    off = np.std([(f - x)[~there] for f in found], axis=1)
+        present[k : k + 3] = False
+    predictions = (predict_missing(x, present), bridge_gaps(x, present, smooth=True))
+    off = np.std([(f - x)[~present] for f in predictions], axis=1)
     assert off[0] < off[1] / 10
     # nothing to learn from
-    assert np.array_equal(predict_missing(x, ~there), bridge_gaps(x, ~there, smooth=True))
+    assert np.array_equal(predict_missing(x, ~present), bridge_gaps(x, ~present, smooth=True))
 
 
 def test_the_error_of_a_derived_acceleration_is_part_of_the_noise_and_accuses_nothing() -> None:

@@ -45,8 +45,8 @@ def flown(s: Scenario, sinusoids: Sequence[Sinusoid], effects: EffectValues) -> 
     t = np.arange(int(s.duration * s.rate)) / s.rate
     parts = []
     for name, signal in zip(next_motion.AXES, (*s.motion.a, *s.motion.omega), strict=True):
-        own = [x for x in sinusoids if x[0] == name]
-        f, amplitude, phase = ([x[k] for x in own] for k in (1, 2, 3))
+        of_axis = [x for x in sinusoids if x[0] == name]
+        f, amplitude, phase = ([x[k] for x in of_axis] for k in (1, 2, 3))
         parts.append(Sinusoids(float(np.mean(signal.value(t))), amplitude, f, phase))
     motion = MotionSignals(tuple(parts[:3]), tuple(parts[3:]))
     runs = [
@@ -145,8 +145,8 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     sheet, plan_file, found_file = (tmp_path / n for n in ("sheet.md", "plan.json", "c.json"))
     flown, motion = [tmp_path / "x.parquet", tmp_path / "y.parquet"], tmp_path / "motion.csv"
     words = ["--for", "calibration", "--criterion", "D", "--duration", 300]
-    told = ["--run-sheet", sheet, "--json", plan_file]
-    ragg("next-motion", tmp_path / "m", flown[0], "-o", motion, *words, *told)
+    options = ["--run-sheet", sheet, "--json", plan_file]
+    ragg("next-motion", tmp_path / "m", flown[0], "-o", motion, *words, *options)
     plan = json.loads(plan_file.read_text())
     assert plan["criterion"] == "D"
     assert plan["channels"]["planned"]["inline_Eo"] < 0.5 * plan["channels"]["now"]["inline_Eo"]
@@ -162,12 +162,12 @@ def test_a_calibration_reaches_what_was_planned(tmp_path: Path) -> None:
     assert all(x["reached"] == pytest.approx(x["planned"], rel=0.1) for x in channels.values())
     assert all(f"| {q['name']} |" in sheet.read_text() for q in combinations)
     f = fit(m.model, m.instrument, observe_flights(api.read_flights(m, flown[:1]), m.instrument))
-    wanted, tones = ChannelVariance.of(f), next_motion.list_tones(0.25, next_motion.LIMITS, (0.0, 3.2))
-    criteria = wanted.weigh_variance, wanted.weigh_volume
-    A, D = (wanted.known.fly(next_motion.find_motion(wanted.known, c, tones, 600.0), 600.0) for c in criteria)
+    spread, tones = ChannelVariance.of(f), next_motion.list_tones(0.25, next_motion.LIMITS, (0.0, 3.2))
+    criteria = spread.weigh_variance, spread.weigh_volume
+    A, D = (spread.known.fly(next_motion.find_motion(spread.known, c, tones, 600.0), 600.0) for c in criteria)
     assert [c(A) > c(D) for c in criteria] == [True, False]
     even = next_motion.share_evenly(tones)
-    assert wanted.rms(A) < wanted.rms(wanted.known.fly(even, 1200.0))
+    assert spread.rms(A) < spread.rms(spread.known.fly(even, 1200.0))
 
 
 def test_a_body_that_is_moved_is_weighed_as_planned(tmp_path: Path) -> None:

@@ -168,9 +168,9 @@ def test_a_change_names_the_state_before_and_after(monkeypatch, tmp_path) -> Non
     toml = tmp_path / "model" / "model.toml"
     digests = [sha256(toml)]
     for arguments in (["add", "model", "lag"], ["remove", "model", "lag"]):
-        made = json_of(arguments, tmp_path, monkeypatch)[0]["provenance"]
+        provenance = json_of(arguments, tmp_path, monkeypatch)[0]["provenance"]
         digests.append(sha256(toml))
-        assert [made["model_digest_before"], made["model_digest"]] == digests[-2:]
+        assert [provenance["model_digest_before"], provenance["model_digest"]] == digests[-2:]
     assert digests[0] == digests[2] != digests[1]
 
 
@@ -207,15 +207,15 @@ def test_every_refusal_of_the_system_names_its_place(given, capsys, monkeypatch)
         raise OSError(40, "Too many levels of symbolic links", "/some\n/where")
 
     monkeypatch.setattr(api, "load", refuses)
-    said = refused("compare", given[0], "f.csv", capsys=capsys)
-    assert said == "ragg: /some\\n/where: Too many levels of symbolic links\n"
+    message = refused("compare", given[0], "f.csv", capsys=capsys)
+    assert message == "ragg: /some\\n/where: Too many levels of symbolic links\n"
 
 
 def test_a_missing_extra_ends_in_what_to_install(tmp_path, monkeypatch, capsys) -> None:
     monkeypatch.setitem(sys.modules, "h5py", None)
     (tmp_path / "flight.h5").write_bytes(b"\x89HDF\r\n\x1a\n")
-    said = refused("convert", tmp_path / "flight.h5", tmp_path / "flight.csv", capsys=capsys)
-    assert "pip install 'ragg[files]'" in said
+    message = refused("convert", tmp_path / "flight.h5", tmp_path / "flight.csv", capsys=capsys)
+    assert "pip install 'ragg[files]'" in message
 
 
 def test_a_page_without_matplotlib_says_so_where_a_figure_would_be(monkeypatch) -> None:
@@ -362,11 +362,11 @@ def test_bad_input_is_one_message_and_changes_nothing(name: str, monkeypatch: py
     make()
     before = {p: p.read_bytes() for p in Path("model").rglob("*") if p.is_file()}
     done = commands.ragg("compare", "model", *flights.split())
-    said = "\n".join(x for x in done.stderr.splitlines() if not x.startswith("... "))  # without progress
+    message = "\n".join(x for x in done.stderr.splitlines() if not x.startswith("... "))  # without progress
     assert (done.returncode, done.stdout) == (2, "")
-    assert [f for f in facts if f not in said] == [], said
-    assert len(re.findall(r"^(ragg: |Usage: )", said, re.MULTILINE)) == 1 and "Traceback" not in said
-    assert len(said) < 3000
+    assert [f for f in facts if f not in message] == [], message
+    assert len(re.findall(r"^(ragg: |Usage: )", message, re.MULTILINE)) == 1 and "Traceback" not in message
+    assert len(message) < 3000
     assert {p: p.read_bytes() for p in Path("model").rglob("*") if p.is_file()} == before
 
 

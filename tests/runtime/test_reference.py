@@ -313,8 +313,8 @@ def fitted_to(
     model = derive.with_effects(sheet, load_packaged(), [effect])
     f = fit(model, sheet, [observe(flight, sheet)], candidates=False)
     c = f.calibration
-    known = zip(c.columns, c.index, np.diag(c.covariance), strict=True)
-    return f, {q.name.split(".")[1]: (c.p[k], q.scale * np.sqrt(v)) for q, k, v in known if q.effect}
+    fits = zip(c.columns, c.index, np.diag(c.covariance), strict=True)
+    return f, {q.name.split(".")[1]: (c.p[k], q.scale * np.sqrt(v)) for q, k, v in fits if q.effect}
 
 
 OMEGA = 2 * np.pi * 3.0
@@ -333,9 +333,9 @@ REMEMBERED: dict[str, dict[str, Any]] = {
 @pytest.mark.parametrize("effect", REMEMBERED)
 def test_what_describes_a_memory_is_fitted_down_to_noise(effect: str) -> None:
     values = REMEMBERED[effect]
-    own = {n: [v, 0, 0, 0] if CATALOGUE[effect][n].per_accelerometer else v for n, v in values.items()}
+    full = {n: [v, 0, 0, 0] if CATALOGUE[effect][n].per_accelerometer else v for n, v in values.items()}
     s = scenario(72, duration=240.0, rate=SLOW)
-    sim = s.simulate({effect: own})
+    sim = s.simulate({effect: full})
     f, found = fitted_to(sim.flight(), s.sheet, effect)
     kept = f.observations[0].record.valid
     assert np.std(f.residuals()[0][kept]) < 1.02 * np.std(sim.G_out - sim.G_out_noise_free)
@@ -348,12 +348,12 @@ def test_what_describes_a_memory_is_fitted_down_to_noise(effect: str) -> None:
 def test_a_part_of_a_record_hears_what_the_whole_one_does() -> None:
     s = scenario(72, duration=120.0)
     r = record(s.simulate().flight(), s.sheet)
-    known = [m for _, m in first_memories(load_packaged().candidates, r)]
+    memories = [m for _, m in first_memories(load_packaged().candidates, r)]
     names = (
         *("mount_a_x", "curvature_tangential", "rate_radial_by_f_0", "rate_radial_by_Q"),
         *("slip_radial", "play_axial", "play_axial_by_w", "heat_rt", "heat_start_by_tau"),
     )
-    whole, part = (add_responses(x, known, names) for x in (r, r.part(slice(900, 1000))))
+    whole, part = (add_responses(x, memories, names) for x in (r, r.part(slice(900, 1000))))
     for name in names:
         expected, got = whole.series(name), part.series(name)
         assert expected is not None and got is not None

@@ -61,7 +61,7 @@ def test_the_page_of_model_toml_has_every_key_that_is_read_and_no_other(title: s
     with pytest.raises(UserError, match="unknown key 'odd'") as refused:
         parse_instrument(WITH_AN_UNKNOWN_KEY[title])
     assert refused.value.expected is not None
-    known = set(str(refused.value.expected).removeprefix("one of ").split(", "))
+    keys = set(str(refused.value.expected).removeprefix("one of ").split(", "))
     name, _, table = title.partition(", ")
     page = made.model_toml()
     listed = set(
@@ -73,7 +73,7 @@ def test_the_page_of_model_toml_has_every_key_that_is_read_and_no_other(title: s
         listed |= {t.strip("[]") for t in re.findall(r"^## (\[\w+\])$", page, re.MULTILINE)}
     else:
         listed = {k for k in listed if "." not in k}
-    assert listed == known
+    assert listed == keys
 
 
 def test_the_page_of_json_has_every_command_that_writes_any_and_every_key_a_meaning() -> None:
@@ -139,14 +139,14 @@ def clone(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
 @pytest.fixture(scope="module")
 def said(clone: Path) -> dict[str, str]:
     """Each command of the block and what it printed, its JSON kept beside."""
-    found = {}
+    outputs = {}
     for line in SHELL.splitlines():
         program, command, *rest = shlex.split(line, comments=True)
         more = ["--json", f"{command}.json"] if command in ("compare", "diagnose", "add", "history") else []
         done = ragg(command, *rest, *more)
         assert (program, done.returncode) == ("ragg", 0), line + done.stderr
-        found[command] = done.stdout
-    return found
+        outputs[command] = done.stdout
+    return outputs
 
 
 def test_the_commands_work_as_typed_and_print_the_next_one(said: dict[str, str], clone: Path) -> None:
@@ -215,25 +215,25 @@ MODULES = {p: p.read_text("utf-8") for p in sorted((ROOT / "ragg_runtime").rglob
 
 def _names() -> set[str]:
     """All names that the runtime's code defines or uses, attributes and parameters too."""
-    found: set[str] = set()
+    names: set[str] = set()
     for text in MODULES.values():
         for node in ast.walk(ast.parse(text)):
             for field in ("id", "attr", "name", "arg"):
                 value = getattr(node, field, None)
                 if isinstance(value, str):
-                    found.add(value)
-    return found
+                    names.add(value)
+    return names
 
 
 def test_every_symbol_of_the_page_is_a_name_of_the_code() -> None:
     named = set(re.findall(r"\\mathtt\{([^}]+)\}", TEXT)) | set(re.findall(r"`([A-Za-z_.0-9\[\]]+)`", TEXT))
-    own = {
+    symbols = {
         re.sub(r"\[\d\]", "", n.replace("\\_", "_")) for n in named if "/" not in n and not n.endswith(".py")
     }
-    known = _names()
-    assert len(own) > 40
+    names = _names()
+    assert len(symbols) > 40
     modules = {p.stem for p in MODULES}
-    assert sorted(n for n in own if not set(n.split(".")) <= known | modules) == []
+    assert sorted(n for n in symbols if not set(n.split(".")) <= names | modules) == []
 
 
 def test_every_file_of_the_page_is_there() -> None:
@@ -268,8 +268,8 @@ TIMES = np.linspace(0.0, 100.0, 60)
 
 def body_of(path: str) -> str:
     """The example whose first line names this path."""
-    (found,) = re.findall(rf"^```python\n(# {re.escape(path)}\n.*?)^```$", RECIPES, re.MULTILINE | re.DOTALL)
-    return str(found)
+    (body,) = re.findall(rf"^```python\n(# {re.escape(path)}\n.*?)^```$", RECIPES, re.MULTILINE | re.DOTALL)
+    return str(body)
 
 
 def module_of(path: str) -> ModuleType:
@@ -292,14 +292,14 @@ def effect(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
     derive.effects.catalogue.cache_clear()
 
 
-def voltages(effects: tuple[Any, ...], own: dict[str, float]) -> np.ndarray:
+def voltages(effects: tuple[Any, ...], changes: dict[str, float]) -> np.ndarray:
     """(4, N) V of one and the same flight, at a humidity of 0.5."""
     chain, draw = load_files(pipeline.derive_model(effects, ())).chain, np.random.default_rng(1)
     inputs = dict(zip((c.name for c in MOTION), draws.motion(draw, len(TIMES)), strict=True))
     inputs["humidity"] = np.full(len(TIMES), 0.5)
     p = np.zeros(chain.SIZE)
     p[: folded.SIZE] = draws.instrument(draw)
-    for name, value in own.items():
+    for name, value in changes.items():
         p[chain.places[name]] += value
     return chain.voltages(TIMES, [inputs[n] for n in chain.INPUTS], p)
 
@@ -307,9 +307,9 @@ def voltages(effects: tuple[Any, ...], own: dict[str, float]) -> np.ndarray:
 def test_an_effect_is_one_file(effect: Any) -> None:
     assert effect.channels == ("humidity",)
     bias = 1e-6 * 9.8
-    found = voltages((effect,), {"humidity_bias__dK0_dh": bias})
-    assert found == pytest.approx(voltages((), {"K0": 0.5 * bias}), rel=1e-12)
-    assert not np.allclose(found, voltages((), {}), rtol=1e-9)
+    volts = voltages((effect,), {"humidity_bias__dK0_dh": bias})
+    assert volts == pytest.approx(voltages((), {"K0": 0.5 * bias}), rel=1e-12)
+    assert not np.allclose(volts, voltages((), {}), rtol=1e-9)
 
 
 def test_a_file_format_is_a_function_and_a_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

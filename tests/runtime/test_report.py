@@ -66,8 +66,8 @@ def clean() -> compare.Comparison:
 
 @pytest.fixture(scope="module")
 def cubic() -> Case:
-    made, known = flight(CUBIC, name=HOSTILE), trimmed()
-    return Case(compare.compare(load.load_packaged(), known, [made]), diagnosed(known, made), made)
+    record, sheet = flight(CUBIC, name=HOSTILE), trimmed()
+    return Case(compare.compare(load.load_packaged(), sheet, [record]), diagnosed(sheet, record), record)
 
 
 ORIGIN = Source(
@@ -115,12 +115,12 @@ def pages(c: Case) -> dict[str, str]:
         {"action": "add", "effect": "lag <i>", "time": "2031-01-01T00:00:00Z", "before": None, "after": None},
         {"action": "add", "effect": "cubic-input", "time": "2031-01-02T00:00:00Z", "before": e, "after": e},
     ]
-    found = {"diagnose": write_diagnosis(c.diagnosis, ORIGIN)}
+    texts = {"diagnose": write_diagnosis(c.diagnosis, ORIGIN)}
     with pytest.MonkeyPatch.context() as patch:  # the figures are those of the diagnosis
         patch.setattr(plots, "draw_plot", lambda _: "<svg></svg>")
-        found["compare"] = write_comparison(c.comparison, ORIGIN)
-        found["add"] = write_addition(history, c.comparison, c.comparison, ORIGIN, c.diagnosis)
-    return found
+        texts["compare"] = write_comparison(c.comparison, ORIGIN)
+        texts["add"] = write_addition(history, c.comparison, c.comparison, ORIGIN, c.diagnosis)
+    return texts
 
 
 def test_pages_are_self_contained_well_formed_and_small(cubic: Case) -> None:
@@ -157,9 +157,9 @@ def test_names_of_strangers_are_text(cubic: Case) -> None:
     assert "lag <i>" in added
     e = numbers.number(cubic.comparison.calibrated.rms_Eo)
     assert f"error {e} → {e} Eo" in added and "cubic-input" in added
-    known = describe.describe_comparison(cubic.comparison.as_json(), [HOSTILE])
-    known += describe.describe_model(HOSTILE, [HOSTILE], [])
-    notebook, terminal = render_notebook(known), render_text(known, verbose=True)
+    sections = describe.describe_comparison(cubic.comparison.as_json(), [HOSTILE])
+    sections += describe.describe_model(HOSTILE, [HOSTILE], [])
+    notebook, terminal = render_notebook(sections), render_text(sections, verbose=True)
     assert "<script" not in notebook and "&lt;script&gt;alert(" in notebook
     assert not any(c in text for c in "\u202e\x07\udcff" for text in (notebook, terminal))
 
@@ -174,8 +174,8 @@ def test_same_input_same_bytes(cubic: Case) -> None:
 def test_missing_effect_is_named_with_its_size(cubic: Case) -> None:
     """The same sentence with the same digits in the terminal, on the page and in a notebook."""
     assert cubic.diagnosis.found == ("cubic-input",)
-    said = describe.describe_diagnosis(cubic.diagnosis.as_json())
-    (line,) = [x for x in said[0].sentences if x.startswith("cubic-input: ")]
+    sections = describe.describe_diagnosis(cubic.diagnosis.as_json())
+    (line,) = [x for x in sections[0].sentences if x.startswith("cubic-input: ")]
     (best,) = describe.choose_values(
         next(r.as_json() for r in cubic.diagnosis.ranking if r.effect == "cubic-input")
     )
@@ -184,7 +184,7 @@ def test_missing_effect_is_named_with_its_size(cubic: Case) -> None:
     spaces = lambda text: re.sub(r"\s+", " ", text)  # noqa: E731
     assert spaces(line) in Page(pages(cubic)["diagnose"]).text
     assert line in html.unescape(cubic.diagnosis._repr_html_())
-    assert numbers.to_ascii(line) in render_text(said).split("\n")
+    assert numbers.to_ascii(line) in render_text(sections).split("\n")
 
 
 def test_what_a_record_sees_of_the_parameters_is_what_the_paper_derives(clean: compare.Comparison) -> None:
@@ -201,14 +201,14 @@ def test_what_a_record_sees_of_the_parameters_is_what_the_paper_derives(clean: c
 
 def test_combinations_are_known_better_than_single_values(clean: compare.Comparison) -> None:
     f = clean.fitted
-    known = {q["name"]: q for q in list_combinations(f)}
+    named = {q["name"]: q for q in list_combinations(f)}
     # the flight's biases are 1 ug above the test sheet in all four: D1234 stays 10 + 2 - 5 - 8 = -1 ug
-    assert known["D1234 K0"]["value"] == pytest.approx(-1.0, abs=0.05)
-    assert "Sigma K0" not in known
-    assert all(q["std"] > 10 * known["D1234 K0"]["std"] for q in list_parameters(f) if q["name"] == "K0")
-    said = render_text(panels.describe_parameters(f), verbose=True)
-    assert "D1234 of K0  " in said
-    assert "shift, sigma of the sheet" in said
+    assert named["D1234 K0"]["value"] == pytest.approx(-1.0, abs=0.05)
+    assert "Sigma K0" not in named
+    assert all(q["std"] > 10 * named["D1234 K0"]["std"] for q in list_parameters(f) if q["name"] == "K0")
+    text = render_text(panels.describe_parameters(f), verbose=True)
+    assert "D1234 of K0  " in text
+    assert "shift, sigma of the sheet" in text
 
 
 def test_noise_in_the_channels_is_what_demodulated_noise_has(clean: compare.Comparison) -> None:
@@ -312,12 +312,12 @@ class Result:
 @pytest.fixture(scope="module")
 def demonstration(tmp_path_factory: pytest.TempPathFactory) -> Result:
     """README's Python as it is typed, on three minutes of the shipped flight."""
-    folder, made = tmp_path_factory.mktemp("display"), dict[str, Any]()
+    folder, names = tmp_path_factory.mktemp("display"), dict[str, Any]()
     put_flight(folder)
     with contextlib.chdir(folder):
-        exec(PYTHON, made)
-    assert made["analytical"] and made["simplified"]
-    return Result(made["step"].before, made["d"], made["step"])
+        exec(PYTHON, names)
+    assert names["analytical"] and names["simplified"]
+    return Result(names["step"].before, names["d"], names["step"])
 
 
 def test_the_python_of_readme_finds_what_is_missing(demonstration: Result) -> None:
@@ -388,8 +388,8 @@ def test_every_verdict_has_its_sentence(demonstration: Result) -> None:
 def test_a_survey_is_shown_flight_by_flight() -> None:
     error = {k: {"rms_Eo": 8.0} for k in ("nominal", "calibrated", "holdout", "after", "after_holdout")}
     common = {"file": "", "notes": [], "ranking": [], "not_testable": [], "parameters": []}
-    own = {"verdict": "missing-effect", "found": ["lag"], "indistinguishable": {"lag": []}, "error": error}
-    records = [common | own | {"flight": f"{k:03}", "noise_floor": {"rms_Eo": 2.5}} for k in range(100)]
+    record = {"verdict": "missing-effect", "found": ["lag"], "indistinguishable": {"lag": []}, "error": error}
+    records = [common | record | {"flight": f"{k:03}", "noise_floor": {"rms_Eo": 2.5}} for k in range(100)]
     text = shown(Survey(tuple(records)))
     assert "100 flights: 100 missing an effect" in text
     assert "recommended: add lag (needed by 100 of 100 flights)" in text

@@ -30,8 +30,8 @@ SLOPE = np.cos(TIME) + 0.99 * np.cos(3.3 * TIME) + 0.21 * np.pi * np.cos(2 * np.
 
 
 def screened(x: np.ndarray, name: str = "G_out") -> Flight:
-    given = {"outputs" if name == "G_out" else "channels": {name: x}}
-    return leave_out_repeated(Flight(time=TIME[: len(x)], **{"channels": {}, "outputs": {}, **given}))
+    columns = {"outputs" if name == "G_out" else "channels": {name: x}}
+    return leave_out_repeated(Flight(time=TIME[: len(x)], **{"channels": {}, "outputs": {}, **columns}))
 
 
 @pytest.mark.parametrize(("every", "first"), [(2, 0), (160, 1)])
@@ -41,10 +41,10 @@ def test_values_between_the_recorded_ones_are_not_used(every: int, first: int, h
     x = SMOOTH[np.maximum((np.arange(N) - first) // every * every + first, 0)]
     if how != "repeated":
         x = np.round(np.interp(np.arange(N), k, SMOOTH[k]), 7)
-    found = screened(x)
-    there = np.flatnonzero(np.isfinite(found.outputs["G_out"]))
-    assert set(there[1:-1]) <= set(k) and len(there) >= len(k) - 1
-    assert found.notes == (
+    flight = screened(x)
+    present = np.flatnonzero(np.isfinite(flight.outputs["G_out"]))
+    assert set(present[1:-1]) <= set(k) and len(present) >= len(k) - 1
+    assert flight.notes == (
         f"G_out: recorded every {every / 16:.4g} s and {how} in between; only recorded values are used",
     )
 
@@ -54,15 +54,15 @@ def test_rates_that_are_held_are_used_at_their_own_rate(every: float) -> None:
     """Where they do not come evenly their derivative is not known, and nothing is claimed of it."""
     k = np.rint(np.floor(np.arange(N) / every) * every).astype(int)
     columns = dict.fromkeys(ANGULAR_RATE, SMOOTH[k]) | dict.fromkeys(ANGULAR_ACCELERATION, SMOOTH[k])
-    given, nowhere = dict.fromkeys(ANGULAR_RATE, "rad/s"), np.zeros(N, dtype=bool)
-    flight = derive_acceleration(Flight(TIME, columns, {}, written=given, lacking=nowhere))
-    found = leave_out_repeated(flight)
-    (flag,) = found.flags
-    wrong = found.channels["omegadot_x"] - np.interp(found.time, TIME, SLOPE)
+    written, nowhere = dict.fromkeys(ANGULAR_RATE, "rad/s"), np.zeros(N, dtype=bool)
+    flight = derive_acceleration(Flight(TIME, columns, {}, written=written, lacking=nowhere))
+    thinned = leave_out_repeated(flight)
+    (flag,) = thinned.flags
+    wrong = thinned.channels["omegadot_x"] - np.interp(thinned.time, TIME, SLOPE)
     if every == 2:
-        assert found.rate == pytest.approx(8) and found.valid.sum() == N // 2 - 2 * 64
+        assert thinned.rate == pytest.approx(8) and thinned.valid.sum() == N // 2 - 2 * 64
         assert "recorded every 0.125 s" in flag.reason and not flag.open
-        assert np.max(np.abs(wrong[found.valid])) < 1e-5
+        assert np.max(np.abs(wrong[thinned.valid])) < 1e-5
     else:
         assert "derived from it, is not known" in flag.reason and flag.open
 
@@ -71,11 +71,11 @@ def test_an_angular_acceleration_is_not_derived_across_a_gap() -> None:
     lacking = np.abs(TIME - 300) < 2
     x = np.interp(TIME, TIME[~lacking], SMOOTH[~lacking])
     channels = dict.fromkeys(ANGULAR_RATE, x) | dict.fromkeys(ANGULAR_ACCELERATION, x)
-    given = dict.fromkeys(ANGULAR_RATE, "rad/s")
-    flight = Flight(TIME, channels, {}, valid=~lacking, written=given, lacking=lacking)
-    found = derive_acceleration(flight)
-    wrong = (found.channels["omegadot_x"] - np.gradient(SMOOTH, TIME, edge_order=2))[1:-1][found.valid[1:-1]]
-    near = np.abs(TIME[1:-1][found.valid[1:-1]] - 300) < 10
+    written = dict.fromkeys(ANGULAR_RATE, "rad/s")
+    flight = Flight(TIME, channels, {}, valid=~lacking, written=written, lacking=lacking)
+    f = derive_acceleration(flight)
+    wrong = (f.channels["omegadot_x"] - np.gradient(SMOOTH, TIME, edge_order=2))[1:-1][f.valid[1:-1]]
+    near = np.abs(TIME[1:-1][f.valid[1:-1]] - 300) < 10
     assert np.max(np.abs(wrong[near])) < 1.1 * np.max(np.abs(wrong[~near]))
 
 
@@ -95,10 +95,10 @@ ANGLE = np.mod(2 * np.pi * 0.25 * TIME, 2 * np.pi)
     ids=["held", "stuck", "zero", "zeros here and there", "spike", "as it is"],
 )
 def test_an_encoder_is_mended(wrong: np.ndarray, lost: int) -> None:
-    found = leave_out_glitches(screened(wrong, "spin_angle"))
-    off = np.angle(np.exp(1j * (found.channels["spin_angle"] - ANGLE)))
+    flight = leave_out_glitches(screened(wrong, "spin_angle"))
+    off = np.angle(np.exp(1j * (flight.channels["spin_angle"] - ANGLE)))
     assert np.max(np.abs(off)) <= 1e-9
-    assert np.sum(~found.valid) == pytest.approx(lost, abs=3)
+    assert np.sum(~flight.valid) == pytest.approx(lost, abs=3)
 
 
 @pytest.mark.parametrize("name", ["G_out", "a_x"])
@@ -110,10 +110,10 @@ def test_what_stands_still_is_left_out(name: str, x: np.ndarray) -> None:
     stuck = x.copy()
     stuck[1000:1032] = stuck[1000]
     stuck[5000:5006] = 0.0
-    found = screened(stuck, name)
-    left_out = ~found.valid if name == "a_x" else np.isnan(found.outputs["G_out"])
+    flight = screened(stuck, name)
+    left_out = ~flight.valid if name == "a_x" else np.isnan(flight.outputs["G_out"])
     assert np.flatnonzero(left_out).tolist() == [*range(1000, 1032), *range(5000, 5006)]
-    assert "is stuck: 32 equal samples from 62.5 s, 6 equal samples from 312.5 s" in found.notes[0]
+    assert "is stuck: 32 equal samples from 62.5 s, 6 equal samples from 312.5 s" in flight.notes[0]
 
 
 def test_other_series_are_left_alone() -> None:
@@ -172,12 +172,12 @@ def test_spikes_are_found_beside_each_other_and_in_samples_that_are_not_used() -
         "vibration_rms": NOISE**2,
     }
     flight = Flight(TIME, channels, {}, valid=valid, written=dict.fromkeys(ANGULAR_RATE, "rad/s"))
-    found = leave_out_glitches(flight)
-    assert [f.columns for f in found.flags] == [("omega_x",), ("temperature",)]
-    assert np.max(np.abs(found.channels["omega_x"] - SMOOTH)) < 0.1
-    assert np.max(np.abs(found.channels["temperature"] - 290 - SMOOTH)) < 0.5
+    cleaned = leave_out_glitches(flight)
+    assert [f.columns for f in cleaned.flags] == [("omega_x",), ("temperature",)]
+    assert np.max(np.abs(cleaned.channels["omega_x"] - SMOOTH)) < 0.1
+    assert np.max(np.abs(cleaned.channels["temperature"] - 290 - SMOOTH)) < 0.5
     slope = np.gradient(SMOOTH, TIME)
-    assert np.max(np.abs(found.channels["omegadot_x"] - slope)[found.valid]) < 0.1 * np.max(np.abs(slope))
+    assert np.max(np.abs(cleaned.channels["omegadot_x"] - slope)[cleaned.valid]) < 0.1 * np.max(np.abs(slope))
 
 
 def test_readings_that_did_not_arrive_are_left_out() -> None:
@@ -186,9 +186,9 @@ def test_readings_that_did_not_arrive_are_left_out() -> None:
     for zero, at in ((0.0, lost), (1.0, lost), (0.0, np.r_[100:140, 300, 301, 600])):
         motion = rng.standard_normal((3, N))
         motion[:, at] = zero * motion[:, at - 1]
-        found = leave_out_repeated(Flight(TIME, dict(zip(SPECIFIC_FORCE, motion, strict=True)), {}))
-        assert np.flatnonzero(~found.valid).tolist() == at.tolist()
-        assert at is not lost or "samples (t = 0.5625" in found.flags[0].reason
+        flight = leave_out_repeated(Flight(TIME, dict(zip(SPECIFIC_FORCE, motion, strict=True)), {}))
+        assert np.flatnonzero(~flight.valid).tolist() == at.tolist()
+        assert at is not lost or "samples (t = 0.5625" in flight.flags[0].reason
     # two within as few samples as tell the usual, a part that is held at half the rate, a gap that was filled
     x, held = SMOOTH + 0.1 * NOISE, np.r_[100, 101, 130, 900, 3101:4001:2]
     x[held] = x[held - 1 - (held == 101)]
@@ -196,9 +196,9 @@ def test_readings_that_did_not_arrive_are_left_out() -> None:
     x[1000:3000:400] = 0.7  # a code within the range
     x[4999:5051] = np.linspace(x[4999], x[5050], 52).round(9)
     x[7001:7041:2] = (x[7000:7040:2] + x[7002:7042:2]) / 2
-    found = leave_out_repeated(Flight(TIME, {"a_y": x}, {}))
+    flight = leave_out_repeated(Flight(TIME, {"a_y": x}, {}))
     lost = np.r_[500, 1000:3000:400, 3000, 3001, 5000:5050, 7001:7041:2]
-    assert np.array_equal(np.flatnonzero(~found.valid), np.union1d(held, lost))
+    assert np.array_equal(np.flatnonzero(~flight.valid), np.union1d(held, lost))
     coarse = np.round(rng.standard_normal((3, N)))
     knots = np.r_[0, np.sort(rng.random(90)) * 599, 600]
     ramps = [np.interp(TIME, knots, rng.random(92)).round(9) for _ in "xyz"]
@@ -245,8 +245,8 @@ def test_stamps_that_are_too_coarse_are_no_doubled_rows() -> None:
     for stamps, words in ((np.floor(TIME), "whole seconds"), (single, "single precision")):
         with pytest.raises(UserError, match="too coarse for the sampling rate") as caught:
             make_grid(stamps, None)
-        said = str(caught.value)
-        assert words in said and "time = row / " in said and "remove" not in said
+        message = str(caught.value)
+        assert words in message and "time = row / " in message and "remove" not in message
 
 
 @pytest.mark.parametrize(("size", "digits"), [(0.025, 3), (0.7, 9), (3.013, 3), (-0.025, 9)])
@@ -322,22 +322,22 @@ def test_a_thermometer_read_every_ten_seconds_is_interpolated(hot: Flight, tmp_p
     read = read_flight(rarely(hot, 80, ("temperature",), tmp_path / "slow.parquet"), G0)
     assert np.flatnonzero(~read.valid).tolist() == list(range(3121, 3200)), "after the last value"
     assert any("temperature: recorded every 10 s; interpolated" in n for n in read.notes)
-    known = hot.channels["temperature"]
-    assert np.max(np.abs(read.channels["temperature"] - known)[:3121]) < 0.01 * np.ptp(known)
+    temperature = hot.channels["temperature"]
+    assert np.max(np.abs(read.channels["temperature"] - temperature)[:3121]) < 0.01 * np.ptp(temperature)
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.05])
 def test_a_thermometer_of_coarse_steps_is_interpolated_between_them(noise, hot, tmp_path) -> None:
     """thermal-scale of 54 sigma was gain-drift and gain-step where temperatures had steps of 0.1 K."""
-    known, rng = hot.channels["temperature"], np.random.default_rng(2)
-    read = 0.0625 * np.round((known + 0.0625 * noise * rng.standard_normal(len(hot))) / 0.0625)
+    temperature, rng = hot.channels["temperature"], np.random.default_rng(2)
+    read = 0.0625 * np.round((temperature + 0.0625 * noise * rng.standard_normal(len(hot))) / 0.0625)
     switch = np.where(hot.time > 200.0, 1.0, 0.0)
     channels = {**hot.channels, "temperature": read, "pressure": switch}
     write_flight(replace(hot, channels=channels), tmp_path / "coarse.csv")
-    found = read_flight(tmp_path / "coarse.csv", G0)
-    assert "temperature: recorded in steps of 0.0625 K; interpolated between them" in found.notes
-    assert np.std(found.channels["temperature"] - known) < 0.55 * np.std(read - known)
-    assert np.array_equal(found.channels["pressure"], switch)
+    flight = read_flight(tmp_path / "coarse.csv", G0)
+    assert "temperature: recorded in steps of 0.0625 K; interpolated between them" in flight.notes
+    assert np.std(flight.channels["temperature"] - temperature) < 0.55 * np.std(read - temperature)
+    assert np.array_equal(flight.channels["pressure"], switch)
 
 
 def test_what_changes_faster_than_it_was_recorded_is_left_out(hot: Flight, tmp_path: Path) -> None:

@@ -75,8 +75,8 @@ def test_a_good_flight_is_left_alone() -> None:
         (drawn(0), flown(0, voltages=True, record_gradient=False)),
         (drawn(1, "table-v"), flown(1, trim="table-v")),
     ):
-        found = screen(MODEL, s.sheet, x)
-        assert found.flags == () and found.valid.all()
+        flight = screen(MODEL, s.sheet, x)
+        assert flight.flags == () and flight.valid.all()
 
 
 def test_a_hidden_effect_is_no_mistake() -> None:
@@ -96,8 +96,8 @@ def test_the_mistake_is_named_on_any_instrument(monkeypatch, trim: str) -> None:
         (replace(x, outputs={n: 1e3 * v for n, v in x.outputs.items()}), "in mV, not in V"),
         (replace(x, channels={**c, "a_x": c["a_z"], "a_z": c["a_x"]}), "a_x and a_z are exchanged"),
     ):
-        (said,) = screened(9, wrong, trim)
-        assert "likely mistake" in said and words in said
+        (note,) = screened(9, wrong, trim)
+        assert "likely mistake" in note and words in note
 
 
 def test_a_scale_factor_off_its_sheet_is_no_wrong_unit(monkeypatch) -> None:
@@ -126,9 +126,9 @@ def test_nothing_is_named_where_nothing_follows_the_motion() -> None:
 
 def test_the_spin_rate_is_measured(monkeypatch) -> None:
     leave_out(monkeypatch, "columns", "slips")
-    found = found_in(flown(10), replace(drawn(10).sheet, layout=paper(0.1, 0.25 * 0.97)))
-    assert found is not None
-    assert float(found.best.what.split()[4]) == pytest.approx(0.25, rel=1e-6)
+    finding = found_in(flown(10), replace(drawn(10).sheet, layout=paper(0.1, 0.25 * 0.97)))
+    assert finding is not None
+    assert float(finding.best.what.split()[4]) == pytest.approx(0.25, rel=1e-6)
 
 
 @pytest.mark.parametrize(("samples", "of"), [(1, ("a_", "om")), (-32, ("a_",)), (16, ("a_y",))])
@@ -161,12 +161,12 @@ def test_lost_rows_are_said_before_the_disc_is_blamed(monkeypatch, gap: int, los
     x, gone = flown(12), np.concatenate([k + np.arange(n) for k, n in lost.items()])
     wrong = counted(x, np.delete(np.arange(len(x)), gone))
     wrong = replace(wrong, valid=wrong.valid & (np.abs(np.arange(len(wrong)) - gone[0] + 0.5) > gap))
-    said = " ".join(screened(12, wrong))
-    found = [(float(at), int(rows)) for at, rows in re.findall(r"at t = ([\d.]+) s: (\d+) row", said)]
-    assert "rows are missing" in said and [rows for _, rows in found] == [*lost.values()]
+    reason = " ".join(screened(12, wrong))
+    losses = [(float(at), int(rows)) for at, rows in re.findall(r"at t = ([\d.]+) s: (\d+) row", reason)]
+    assert "rows are missing" in reason and [rows for _, rows in losses] == [*lost.values()]
     before = np.cumsum([0, *lost.values()])[:-1]
-    assert np.allclose([at for at, _ in found], (np.array([*lost]) - before) / 16, atol=1.0 + gap / 16)
-    assert "write spin_frequency" not in said
+    assert np.allclose([at for at, _ in losses], (np.array([*lost]) - before) / 16, atol=1.0 + gap / 16)
+    assert "write spin_frequency" not in reason
 
 
 def test_rows_that_lack_or_are_doubled_all_along_are_said(monkeypatch) -> None:
@@ -174,8 +174,8 @@ def test_rows_that_lack_or_are_doubled_all_along_are_said(monkeypatch) -> None:
     x, rng = flown(12), np.random.default_rng(1)
     few = rng.random(len(x)) < 0.02
     for rows, word in ((np.flatnonzero(~few), "missing"), (np.repeat(np.arange(len(x)), 1 + few), "doubled")):
-        (said,) = screened(12, counted(x, rows))
-        count = re.search(rf"rows are {word} \(about (\d+) of \d+\) all along", said)
+        (note,) = screened(12, counted(x, rows))
+        count = re.search(rf"rows are {word} \(about (\d+) of \d+\) all along", note)
         assert count is not None and int(count[1]) == pytest.approx(np.sum(few), rel=0.15)
 
 
@@ -210,8 +210,8 @@ def test_a_recorder_that_slips_against_the_other_is_said_with_the_time(
     slipped = replace(x, channels={n: moved[n] for n in x.channels}, outputs={"G_out": moved["G_out"]})
     name, way = ("the output", "late") if samples > 0 else ("the motion record", "early")
     by = rf"{abs(samples) / 16:g} s \({abs(samples)} samples\)"
-    said = rf"{name} is {by} {way} from t = (59|60)(\.\d+)? s on"
-    assert any(re.search(said, n) for n in screened(12, slipped))
+    pattern = rf"{name} is {by} {way} from t = (59|60)(\.\d+)? s on"
+    assert any(re.search(pattern, n) for n in screened(12, slipped))
 
 
 CUBIC = {"cubic-input": {"K_iii": [2e-2 / 9.8**2, 0.0, 0.0, 0.0]}}
@@ -232,18 +232,18 @@ def test_a_clock_that_was_set_is_said_with_its_time(monkeypatch, size: float, hi
         valid=~lacking & (np.abs(np.arange(len(rows)) - at) > 40 * (gap > 0)),
         outputs={n: np.where(lacking, np.nan, v) for n, v in wrong.outputs.items()},
     )
-    found = screen(MODEL, drawn(12).sheet, wrong)
-    said = [f.reason for f in found.flags if "the sample count" in f.reason]
-    assert len(said) == 1 and f"the time stamps jump by {size:g} s at t = 9" in said[0]
-    np.testing.assert_allclose(found.time, x.time, atol=1e-9)
+    flight = screen(MODEL, drawn(12).sheet, wrong)
+    reasons = [f.reason for f in flight.flags if "the sample count" in f.reason]
+    assert len(reasons) == 1 and f"the time stamps jump by {size:g} s at t = 9" in reasons[0]
+    np.testing.assert_allclose(flight.time, x.time, atol=1e-9)
 
 
 def test_stamps_that_scatter_or_drift_and_are_put_right_are_made_even() -> None:
     x, size = flown(12), 1e-3
     e = size / x.rate * np.random.default_rng(1).standard_normal(len(x))
     for wrong in (e, -3e-4 * (x.time % 40.0)):
-        found = screen(MODEL, drawn(12).sheet, replace(x, time=x.time + wrong))
-        np.testing.assert_allclose(found.time, x.time, rtol=0, atol=size / x.rate / 10)
+        flight = screen(MODEL, drawn(12).sheet, replace(x, time=x.time + wrong))
+        np.testing.assert_allclose(flight.time, x.time, rtol=0, atol=size / x.rate / 10)
 
 
 def test_samples_that_were_taken_unevenly_keep_their_instants() -> None:
@@ -295,9 +295,9 @@ def test_channels_that_are_defined_otherwise_are_named(monkeypatch) -> None:
     good = demodulated(s, s.simulate().flight())
     assert found_in(good, s.sheet) is None
     o = {"inline": -1.0 * good.outputs["inline"], "cross": 2.0 * good.outputs["cross"]}
-    found = found_in(replace(good, outputs=o), s.sheet)
-    assert found is not None and found.others == ()
-    assert found.best.what == "inline is -1 times Gamma_xx - Gamma_yy; cross is 2 times Gamma_xy"
+    finding = found_in(replace(good, outputs=o), s.sheet)
+    assert finding is not None and finding.others == ()
+    assert finding.best.what == "inline is -1 times Gamma_xx - Gamma_yy; cross is 2 times Gamma_xy"
 
 
 CAUSAL = signal.butter(3, 0.15, fs=16, output="sos")
@@ -305,10 +305,10 @@ CAUSAL = signal.butter(3, 0.15, fs=16, output="sos")
 
 def test_another_demodulator_is_named_with_its_size(monkeypatch) -> None:
     leave_out(monkeypatch, "timing")
-    own = [x for x in mistakes.list_low_passes() if (x[0](0.1).kind, x[0](0.1).order) == ("causal", 3)]
-    monkeypatch.setattr(mistakes, "list_low_passes", lambda: iter(own))
-    found = found_in(demodulated(drawn(14), flown(14), lambda z: signal.sosfilt(CAUSAL, z)), drawn(14).sheet)
-    assert found is not None and 'kind = "causal", cutoff = "0.15 Hz", order = 3;' in found.best.remedy
+    low_passes = [x for x in mistakes.list_low_passes() if (x[0](0.1).kind, x[0](0.1).order) == ("causal", 3)]
+    monkeypatch.setattr(mistakes, "list_low_passes", lambda: iter(low_passes))
+    f = found_in(demodulated(drawn(14), flown(14), lambda z: signal.sosfilt(CAUSAL, z)), drawn(14).sheet)
+    assert f is not None and 'kind = "causal", cutoff = "0.15 Hz", order = 3;' in f.best.remedy
 
 
 def test_outputs_that_are_recorded_more_seldom_than_the_motion() -> None:

@@ -90,22 +90,22 @@ def test_nothing_crosses_a_gap() -> None:
 def test_the_page_gives_the_formulas_of_the_code() -> None:
     """docs/reference/flight-file.md, evaluated: what it says of a pure gradient and of its demodulation is so."""
     page = (Path(__file__).parents[2] / "docs" / "reference" / "flight-file.md").read_text("utf-8")
-    said = dict(re.findall(r"^    (G_out|inline|cross) = (.+)$", page, flags=re.MULTILINE))
-    assert {*said} == {"G_out", "inline", "cross"}
+    formulas = dict(re.findall(r"^    (G_out|inline|cross) = (.+)$", page, flags=re.MULTILINE))
+    assert {*formulas} == {"G_out", "inline", "cross"}
     tensor, instrument = np.array([300, 120, 50, 200, -80, -500]) * 1e-9, perfect()
     flight = simulate(instrument, still(), 300, FAST, gravity=Gradient(tensor))
-    known = {
+    names = {
         "sin": np.sin,
         "cos": np.cos,
         "phi": disc_angle(0.25, flight.time),
         "k_ggi": instrument.scale_factor,
     }
-    G_out = eval(said["G_out"], {**known, "inline": tensor[0] - tensor[3], "cross": tensor[1]})
+    G_out = eval(formulas["G_out"], {**names, "inline": tensor[0] - tensor[3], "cross": tensor[1]})
     np.testing.assert_allclose(flight.G_out, G_out, rtol=0, atol=1e-5 * np.max(np.abs(G_out)))
-    known |= {"G_out": flight.G_out, "LP": lambda x: np.convolve(x, low_pass(FAST), "valid")}
-    out = demodulate(flight.G_out, known["phi"], FAST, instrument.scale_factor)
+    names |= {"G_out": flight.G_out, "LP": lambda x: np.convolve(x, low_pass(FAST), "valid")}
+    out = demodulate(flight.G_out, names["phi"], FAST, instrument.scale_factor)
     for name, true in (("inline", tensor[0] - tensor[3]), ("cross", tensor[1])):
-        by_page = eval(said[name], dict(known))
+        by_page = eval(formulas[name], dict(names))
         np.testing.assert_allclose(by_page, getattr(out, name), rtol=0, atol=1e-15)
         np.testing.assert_allclose(by_page, true, rtol=0, atol=1e-14)
 
@@ -150,8 +150,8 @@ def channels(low: Callable[[Array], Array], every: int = 1, trim: str = "table-v
     G, time = x.outputs["G_out"][::every], x.time[::every]
     phi, packaged = 2 * np.pi * 0.25 * time, model.load_packaged()
     k = scale_factor(packaged, make_vector(packaged, s.sheet)) * 1e9
-    found = {"inline": low(4 * G * np.sin(2 * phi)) / k, "cross": low(-2 * G * np.cos(2 * phi)) / k}
-    return Flight(time=time, channels={n: v[::every] for n, v in x.channels.items()}, outputs=found)
+    outputs = {"inline": low(4 * G * np.sin(2 * phi)) / k, "cross": low(-2 * G * np.cos(2 * phi)) / k}
+    return Flight(time=time, channels={n: v[::every] for n, v in x.channels.items()}, outputs=outputs)
 
 
 def compared(x: Flight, trim: str = "table-v") -> Comparison:
@@ -250,8 +250,8 @@ def whole(flown: tuple[Scenario, Flight]) -> Observation:
 
 
 def thinned(sheet: Instrument, flight: Flight) -> Observation:
-    (found,) = thinning.thin_observations(model.load_packaged(), sheet, [observation.observe(flight, sheet)])
-    return found
+    (o,) = thinning.thin_observations(model.load_packaged(), sheet, [observation.observe(flight, sheet)])
+    return o
 
 
 def at_sheet(sheet: Instrument, *, with_candidates: bool = False) -> LinearisationPoint:
@@ -313,8 +313,8 @@ def test_spikes_cost_a_sample_and_a_gap_what_is_beside_it(flown: tuple[Scenario,
     valid[np.random.default_rng(2).choice(len(valid), 200, replace=False)] = False
     valid[20_000:20_300] = False
     outputs = {n: np.where(valid, x, np.nan) for n, x in flight.outputs.items()}
-    there = (flight.time < 200.0) | (flight.time >= 203.0)  # of single samples the reader knows the motion
-    channels = {n: np.where(there, x, np.nan) for n, x in flight.channels.items()}
+    present = (flight.time < 200.0) | (flight.time >= 203.0)  # of single samples the reader knows the motion
+    channels = {n: np.where(present, x, np.nan) for n, x in flight.channels.items()}
     o = thinned(s.sheet, replace(flight, channels=channels, outputs=outputs, valid=valid))
     missing = o.record.time[~o.record.valid]
     gap = (missing > 199.5) & (missing < 203.5)
@@ -329,14 +329,14 @@ def test_spikes_cost_a_sample_and_a_gap_what_is_beside_it(flown: tuple[Scenario,
 def test_an_encoder_that_counts_from_zero_at_every_turn_is_thinned_as_one_that_does_not(flown) -> None:
     s, flight = flown
     spin = 2 * np.pi * s.sheet.spin_frequency
-    found = []
+    residuals = []
     for angle in (spin * flight.time, np.mod(spin * flight.time, 2 * np.pi)):
         channels = {**flight.channels, "spin_angle": angle}
         o = thinned(s.sheet, replace(flight, channels=channels))
         assert o.thin is not None
-        found.append(np.exp(1j * o.record.phi))
-    np.testing.assert_allclose(found[0], found[1], atol=1e-9)
-    np.testing.assert_allclose(found[0], np.exp(1j * spin * o.record.time), atol=1e-9)
+        residuals.append(np.exp(1j * o.record.phi))
+    np.testing.assert_allclose(residuals[0], residuals[1], atol=1e-9)
+    np.testing.assert_allclose(residuals[0], np.exp(1j * spin * o.record.time), atol=1e-9)
 
 
 @pytest.fixture(scope="module")
@@ -403,14 +403,14 @@ def test_the_division_leaves_no_trace(long_flight, monkeypatch) -> None:
 def test_single_missing_samples_do_not_silence_the_demodulator(long_flight: tuple[Scenario, Flight]) -> None:
     """One sample in a hundred missing: the demodulated error is still there, and much the same."""
     s, flight = long_flight
-    found = []
+    scores = []
     for missing in (0.0, 0.01):
         x = replace(flight, valid=np.random.default_rng(3).random(len(flight.time)) >= missing)
         o = observation.observe_flights([x], s.sheet)
         f = fitted.fit(model.load_packaged(), s.sheet, o, candidates=False)
-        found += f.score([np.zeros(f.size)])
+        scores += f.score([np.zeros(f.size)])
     for part in ("whole", "held_out"):
-        a, b = (getattr(x, part) for x in found)
+        a, b = (getattr(x, part) for x in scores)
         assert b.inline_Eo == pytest.approx(a.inline_Eo, rel=0.1)
         assert b.cross_Eo == pytest.approx(a.cross_Eo, rel=0.1)
 

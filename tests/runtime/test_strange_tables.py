@@ -49,11 +49,11 @@ def mapped(path: Path) -> Any:
     return parse_mapping(draft_mapping(path).text, path)
 
 
-def same(found: Any, instants: bool = False) -> None:
-    assert found.instants == instants
-    assert found.time - found.time[0] == pytest.approx(VALUES["time"], abs=1e-6)
-    assert found.outputs["G_out"] == pytest.approx(VALUES["G_out"])
-    assert found.channels["a_y"] == pytest.approx(VALUES["a_y"] * G0)
+def same(flight: Any, instants: bool = False) -> None:
+    assert flight.instants == instants
+    assert flight.time - flight.time[0] == pytest.approx(VALUES["time"], abs=1e-6)
+    assert flight.outputs["G_out"] == pytest.approx(VALUES["G_out"])
+    assert flight.channels["a_y"] == pytest.approx(VALUES["a_y"] * G0)
 
 
 PLAIN = ",".join(HEADER)
@@ -136,8 +136,8 @@ def test_tables_in_disguise(tmp_path: Path, kind: str) -> None:
 
 
 def stamps(start: str, form: str) -> list[str]:
-    every = pd.to_datetime(start) + pd.to_timedelta(VALUES["time"], unit="s")
-    return [t.strftime(form) for t in every]
+    instants = pd.to_datetime(start) + pd.to_timedelta(VALUES["time"], unit="s")
+    return [t.strftime(form) for t in instants]
 
 
 DATES: dict[str, tuple[list[Any], bool]] = {
@@ -183,8 +183,8 @@ def test_dates_as_people_write_them(tmp_path: Path, kind: str) -> None:
     head = "Year,Month,Day,Hour,Minute,Second," if "columns" in kind else "time,"
     (tmp_path / "x.csv").write_text(text(head + PLAIN.partition(",")[2], rows(times)))
     same(read_flight(tmp_path / "x.csv", G0), instants)
-    made = draft_mapping(tmp_path / "x.csv")
-    assert not made.questions, made.text
+    draft = draft_mapping(tmp_path / "x.csv")
+    assert not draft.questions, draft.text
     if "days" not in kind:
         same(read_flight(tmp_path / "x.csv", G0, mapping=mapped(tmp_path / "x.csv")), instants)
 
@@ -208,8 +208,8 @@ def test_a_date_of_two_meanings_is_asked_for(tmp_path: Path) -> None:
     path = tmp_path / "x.csv"
     times = stamps("2026-03-01 10:00:00", "%m/%d/%Y %H:%M:%S.%f")
     path.write_text(text("when," + PLAIN.partition(",")[2], rows(times)))
-    made = draft_mapping(path)
-    assert 'format = "?"' in made.text and "d/m/y" in made.questions[0]
+    draft = draft_mapping(path)
+    assert 'format = "?"' in draft.text and "d/m/y" in draft.questions[0]
     march, january = datetime(2026, 3, 1, tzinfo=UTC), datetime(2026, 1, 3, tzinfo=UTC)
     for form, day in (
         ("d/m/y", january),
@@ -217,8 +217,8 @@ def test_a_date_of_two_meanings_is_asked_for(tmp_path: Path) -> None:
         ("mm/dd/yyyy", march),
         ("%d/%m/%Y %H:%M:%S.%f", january),
     ):
-        (found,) = read_recordings(path, parse_mapping(made.text.replace('"?"', f'"{form}"'), tmp_path))
-        assert found.origin == day
+        (record,) = read_recordings(path, parse_mapping(draft.text.replace('"?"', f'"{form}"'), tmp_path))
+        assert record.origin == day
     for old, new, said in (
         ("when", "time", r"day/month or month/day[^$]*03/01/2026[^$]*format"),
         ("10:00:01.0", "10h00m01", r"cannot be read[^$]*line 18: '03/01/2026 10h00m01"),
@@ -234,13 +234,13 @@ def test_excel_as_people_write_it(tmp_path: Path) -> None:
         ["time", "a [g]", None, None, "omega [deg/h]", None, None, "G_out [V]"],
         [None, *"xyzxyz", None],
     ]
-    path, every = tmp_path / "x.xlsx", [timedelta(seconds=float(t)) for t in VALUES["time"]]
+    path, elapsed = tmp_path / "x.xlsx", [timedelta(seconds=float(t)) for t in VALUES["time"]]
     noon, of_1900 = datetime(2026, 3, 1, 23, 59, 58), datetime(1900, 1, 1, 10)
     for times, instants in (
-        ([timedelta(hours=23, minutes=59, seconds=58) + t for t in every], False),
-        ([(noon + t).time() for t in every], True),
-        ([noon + t for t in every], True),
-        ([of_1900 + t for t in every], False),
+        ([timedelta(hours=23, minutes=59, seconds=58) + t for t in elapsed], False),
+        ([(noon + t).time() for t in elapsed], True),
+        ([noon + t for t in elapsed], True),
+        ([of_1900 + t for t in elapsed], False),
     ):
         write_sheets(path, {"a": [["of a survey"], *merged, *rows(times)]})
         read = read_flight(path, G0)
@@ -248,10 +248,10 @@ def test_excel_as_people_write_it(tmp_path: Path) -> None:
         # openpyxl rounds to milliseconds
         assert read.time - read.time[0] == pytest.approx(VALUES["time"], abs=6e-4)
         assert read.channels["a_y"] == pytest.approx(VALUES["a_y"] * G0)
-    cells = [[(noon + t).date(), (noon + t).time(), *r[1:]] for t, r in zip(every, rows(), strict=True)]
+    cells = [[(noon + t).date(), (noon + t).time(), *r[1:]] for t, r in zip(elapsed, rows(), strict=True)]
     write_sheets(path, {"a": [["Date", "Time", *HEADER[1:]], *cells]})
-    found = read_flight(path, G0, mapping=mapped(path))
-    assert np.diff(found.time) == pytest.approx(1 / RATE, abs=6e-4) and found.instants
+    flight = read_flight(path, G0, mapping=mapped(path))
+    assert np.diff(flight.time) == pytest.approx(1 / RATE, abs=6e-4) and flight.instants
 
 
 NOISE = 290 + np.random.default_rng(3).normal(size=500)
@@ -323,16 +323,16 @@ def test_codes_are_left_out_with_a_note_in_every_column(tmp_path: Path) -> None:
     for k, n in enumerate((n for n in data if n != "load"), 3):
         data[n][[k, k + 20]] = -9999.0
     data["temperature"][7] = -300.0
-    given = {**UNITS, "temperature": "K", "load": "1"}
-    table = {f"{n} [{u}]": data[n] for n, u in given.items()}
-    found = read_flight(table, G0)
-    assert len(found) == N
-    assert sum("2 values of -9999" in n for n in found.notes) == 9
-    assert "2 rows without a time left out" in found.notes
-    assert np.min(found.channels["temperature"]) > 280
-    assert "temperature: 1 sample not above absolute zero, left out" in found.notes
+    units = {**UNITS, "temperature": "K", "load": "1"}
+    table = {f"{n} [{u}]": data[n] for n, u in units.items()}
+    flight = read_flight(table, G0)
+    assert len(flight) == N
+    assert sum("2 values of -9999" in n for n in flight.notes) == 9
+    assert "2 rows without a time left out" in flight.notes
+    assert np.min(flight.channels["temperature"]) > 280
+    assert "temperature: 1 sample not above absolute zero, left out" in flight.notes
     lines = ["null = [-9999]", '[time]\ncolumn = "time"', "[columns]"]
-    lines += [f'{n} = {{ column = "{n}", null = [0, "n/a"] }}' for n in given if n != "time"]
+    lines += [f'{n} = {{ column = "{n}", null = [0, "n/a"] }}' for n in units if n != "time"]
     mapped = read_flight(table, G0, mapping=parse_mapping("\n".join(lines), tmp_path))
     assert any("load: left out as missing: 9 values of 0" in n for n in mapped.notes)
 
@@ -375,12 +375,12 @@ def test_flights_in_memory() -> None:
         ({**VALUES, "attrs": {"units": UNITS}}, False),
         ({n: xarray.DataArray(v, attrs={"units": UNITS[n]}) for n, v in VALUES.items()}, False),
     ):
-        (found,) = read_flights(data, G0, name="x")
-        same(found, instants)
-        assert (found.name, found.path, len(found.digest)) == ("x", None, 64)
+        (flight,) = read_flights(data, G0, name="x")
+        same(flight, instants)
+        assert (flight.name, flight.path, len(flight.digest)) == ("x", None, 64)
     masked = np.ma.masked_array(VALUES["a_x"], np.arange(N) == 9)
-    found = read_flight(plain | {HEADER[1]: masked}, G0)
-    assert np.flatnonzero(~found.valid[:-10]).tolist() == [*range(N // 8), 9]
+    flight = read_flight(plain | {HEADER[1]: masked}, G0)
+    assert np.flatnonzero(~flight.valid[:-10]).tolist() == [*range(N // 8), 9]
     with pytest.raises(UserError, match="not a flight"):
         read_flight(3.0, G0)
 
@@ -404,15 +404,15 @@ def test_a_map_is_written_whatever_is_odd(tmp_path: Path) -> None:
             file[f"imu/{n}"].attrs["units"] = UNITS[n]
         file["imu/names"] = np.array([b"a"] * N)
         file["other/time"], file["other/x"] = np.arange(5.0), np.arange(5.0)
-    made = draft_mapping(path)
-    assert 'part = "/imu"' in made.text and "no numbers" in made.text
+    draft = draft_mapping(path)
+    assert 'part = "/imu"' in draft.text and "no numbers" in draft.text
     same(read_flight(path, G0, mapping=mapped(path)))
     path, lines = tmp_path / "x.csv", [1010] * 20 + [1020] * 20 + ["T9010"] * (N - 20 - 20)
     kinds = text("LINE," + PLAIN, [[n, *r] for n, r in zip(lines, rows(), strict=True)])
     path.write_text(kinds + "," * 8 + "\n" + "," + "0," * 7 + "0\n")
-    found = read_recordings(path, mapped(path))
-    assert [r.line for r in found] == ["1010", "1020", "T9010"]
-    assert any("2 rows without the name of a line left out" in n for n in found[0].notes)
+    records = read_recordings(path, mapped(path))
+    assert [r.line for r in records] == ["1010", "1020", "T9010"]
+    assert any("2 rows without the name of a line left out" in n for n in records[0].notes)
 
 
 def test_a_map_of_names_in_groups_and_with_units(tmp_path: Path) -> None:
@@ -420,17 +420,17 @@ def test_a_map_of_names_in_groups_and_with_units(tmp_path: Path) -> None:
     path = tmp_path / "x.parquet"
     names = [f"/'Untitled'/'{n}_{u}'" if u != "deg/h" else f"/'imu'/'{n}_dph'" for n, u in UNITS.items()]
     pd.DataFrame({n: v.astype(str) for n, v in zip(names, VALUES.values(), strict=True)}).to_parquet(path)
-    made = draft_mapping(path)
-    assert not made.questions and not made.notes, made
+    draft = draft_mapping(path)
+    assert not draft.questions and not draft.notes, draft
     same(read_flight(path, G0, mapping=mapped(path)))
     path, a = tmp_path / "x.csv", [f"/imu/linear_acceleration/{k}.g" for k in "xyz"]
     names = ["__time.s", *a, *(f"imu.gyroscope.{k} [deg/h]" for k in "xyz"), "G_out.V"]
     path.write_text(text(",".join(names), rows()))
     same(read_flight(path, G0, mapping=mapped(path)))
     path.write_text(text("X_Value,u,v", [[*r[:3]] for r in rows()]))
-    made = draft_mapping(path)
-    assert "[time]: unit of 'X_Value'" in made.questions[0]
-    assert "no column is recognised as a_x" in made.notes[0]
+    draft = draft_mapping(path)
+    assert "[time]: unit of 'X_Value'" in draft.questions[0]
+    assert "no column is recognised as a_x" in draft.notes[0]
 
 
 def test_a_file_name_that_is_no_unicode(tmp_path: Path) -> None:

@@ -77,14 +77,14 @@ def test_every_flight_has_its_own_figures_and_one_that_cannot_be_read_stops_noth
     assert first["error"]["after"]["rms_Eo"] < 0.9 * first["error"]["calibrated"]["rms_Eo"]
     assert (plain["verdict"], plain["found"]) == ("adequate", [])
     c = api.compare(m, api.read_flights(m, [flights[1][1]]))
-    found = {k: plain["error"][k]["rms_Eo"] for k in ("after", "nominal", "holdout")}
+    figures = {k: plain["error"][k]["rms_Eo"] for k in ("after", "nominal", "holdout")}
     expected = {"after": c.calibrated.rms_Eo, "nominal": c.nominal.rms_Eo, "holdout": c.holdout.rms_Eo}
-    assert found == pytest.approx(expected, rel=1e-9)
+    assert figures == pytest.approx(expected, rel=1e-9)
     assert failed["flight"] == "flight-2b.parquet"
     assert "damaged" in failed["error"]["message"]
     assert (whole.as_json()["counts"]["error"], len(whole.done)) == (1, 3)
-    said = render_text(whole.sections(flights[0]))
-    assert "1 in error" in said and "flight-2b.parquet  " in said and "ragg add" in said
+    text = render_text(whole.sections(flights[0]))
+    assert "1 in error" in text and "flight-2b.parquet  " in text and "ragg add" in text
     advice = whole.as_json()["recommendation"][0]
     assert (advice["effect"], advice["firm"]) == ("thermal-scale", True)
     assert "flight-0.parquet" in advice["flights"]
@@ -95,9 +95,9 @@ def test_a_flight_that_kills_every_worker_is_given_up(flights, monkeypatch) -> N
     # ours imports the program, which takes a second each time
     monkeypatch.setattr(run, "_begin", begin)
     files = [str(p) for p in flights[1]]
-    found = dict(run.examine_all(None, files, partial(run.open_processes, 1)))  # type: ignore[arg-type]
-    assert sorted(found) == sorted(files)
-    failed = {Path(f).name: r["error"] for f, r in found.items() if "error" in r}
+    results = dict(run.examine_all(None, files, partial(run.open_processes, 1)))  # type: ignore[arg-type]
+    assert sorted(results) == sorted(files)
+    failed = {Path(f).name: r["error"] for f, r in results.items() if "error" in r}
     assert sorted(failed) == ["flight-1.parquet", "flight-2.parquet"]
     assert "died" in failed["flight-1.parquet"]["message"]
     assert "MemoryError" in failed["flight-2.parquet"]["message"]
@@ -263,14 +263,14 @@ def test_lines_are_flights(flights: Flights, tmp_path: Path) -> None:
     write(path, tables)
     entries = [f'{n} = {{ column = "{c}", unit = "{x.units[n]}" }}' for n, c in names.items()]
     text = "\n".join(['[time]\ncolumn = "T"\nunit = "s"\n[columns]', *entries])
-    given = Job(toml.read_text(), str(toml), mapping=(text, "mapping.toml", False))
-    files = expand_lines(given, [str(path), str(tmp_path / "none.csv")])
+    job = Job(toml.read_text(), str(toml), mapping=(text, "mapping.toml", False))
+    files = expand_lines(job, [str(path), str(tmp_path / "none.csv")])
     assert files == [f"{path}::10", f"{path}::20", str(tmp_path / "none.csv")]
     assert split_line(files[0]) == (path, "10")
-    record = examine(given, files[1])
+    record = examine(job, files[1])
     assert (record["flight"], record["verdict"]) == ("s.h5::20", "adequate")
     assert record["sha256"] == digest_file(files[1]) == digest_file(str(path))
-    assert "several lines" in examine(given, str(path))["error"]["message"]
+    assert "several lines" in examine(job, str(path))["error"]["message"]
     assert "the columns time, a_x" in examine(Job(toml.read_text(), str(toml)), files[0])["error"]["message"]
 
 
@@ -304,9 +304,9 @@ def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(flights
                 killed.append(workers[0])
                 os.kill(workers[0], signal.SIGKILL)
 
-        found = api.survey(m, files, scheduler=cluster.scheduler_address, progress=kill_one)
+        survey = api.survey(m, files, scheduler=cluster.scheduler_address, progress=kill_one)
         assert killed
-        assert json.dumps(found.records) == json.dumps(expected.records)
+        assert json.dumps(survey.records) == json.dumps(expected.records)
 
         # A file that the workers do not see; the survey is done all the same.
         (lost,) = api.survey(m, ["elsewhere.parquet"], scheduler=cluster.scheduler_address).records

@@ -58,8 +58,8 @@ def test_turning_forces_and_their_derivatives(axis: str, turn: float, smooth: Re
         (f"d2_{axis}", np.gradient(first, TIME, edge_order=2), 3e-3),
         (f"abs({axis})", np.abs(f), 1e-12),
     ):
-        found = dictionary.make_series(name, smooth)
-        np.testing.assert_allclose(found[inner], expected[inner], atol=most)
+        series = dictionary.make_series(name, smooth)
+        np.testing.assert_allclose(series[inner], expected[inner], atol=most)
     turned = dataclasses.replace(smooth, wide={**smooth.wide, "spin_angle": smooth.phi + np.pi / 2})
     other, sign = ("f_o", -1.0) if axis == "f_i" else ("f_i", 1.0)
     expected = sign * dictionary.make_series(other, smooth)
@@ -242,20 +242,20 @@ def test_noise_raises_none_and_segments_leave_no_trace() -> None:
     rng = np.random.default_rng(3)
     X = _columns(rng) ** 9  # with peaks, on which one sample of heavy tails may fall
     everything = np.ones(TERMS, dtype=bool)
-    found = []
+    results = []
     for n in range(120):
         loud = 1.0 + 0.3 * np.sin(2 * np.pi * LONG / 600.0) * (n % 2)  # every other not quite stationary
         y = (rng.standard_normal(SAMPLES) if n % 3 else rng.standard_t(2, SAMPLES)) * loud
         best = _scores(y / np.std(y), X).best(everything)
         assert best is not None
-        found.append(best.log_p)
+        results.append(best.log_p)
         if n == 0:
             parts = _scores(y / np.std(y), X, (1000, 1003, 5000)).best(everything)
             assert parts is not None
             assert (parts.place, parts.how) == (best.place, best.how)
             assert parts.chi2 == pytest.approx(best.chi2, rel=1e-5)
     for level in (0.05, 0.2):
-        assert np.sum(np.array(found) < np.log(level)) <= stats.binom.ppf(0.999, len(found), level)
+        assert np.sum(np.array(results) < np.log(level)) <= stats.binom.ppf(0.999, len(results), level)
 
 
 @pytest.mark.parametrize(

@@ -54,8 +54,8 @@ def field(X: Array, y: Array, names: Sequence[str], n_base: int = 0, **options: 
     """Effects by the names of the columns after those of the base: "e", or "e.x1" of the first accelerometer."""
     columns: dict[str, tuple[tuple[int, Column], ...]] = {}
     for k, name in enumerate(names):
-        effect, _, own = name.partition(".")
-        column = Column(f"{effect}.{own[:1] or 'x'}", int(own[1:]) if own else None, 1.0, "1", 1.0, effect)
+        effect, _, tag = name.partition(".")
+        column = Column(f"{effect}.{tag[:1] or 'x'}", int(tag[1:]) if tag else None, 1.0, "1", 1.0, effect)
         columns[effect] = (*columns.get(effect, ()), (k, column))
     T = np.linalg.qr(np.column_stack([X, y]), mode="r")
     return ProjectedProblem(T, n_base, columns, **options)
@@ -99,9 +99,9 @@ def test_the_levels_add_up_to_what_is_promised() -> None:
     candidates = load_packaged().candidates
     random = sum(e.kind == "random" for e in candidates)
     columns = sum(e.kind in ("deterministic", "step") for e in candidates)
-    every = false_alarms.CATALOGUE * (1 + random / columns) + false_alarms.REMAINDER
-    every += false_alarms.REMAINDER * false_alarms.REMAINDER_SHARES[0]
-    assert every < 0.0375 < false_alarms.PROMISED  # as the module says; the rest is left to the noise
+    total = false_alarms.CATALOGUE * (1 + random / columns) + false_alarms.REMAINDER
+    total += false_alarms.REMAINDER * false_alarms.REMAINDER_SHARES[0]
+    assert total < 0.0375 < false_alarms.PROMISED  # as the module says; the rest is left to the noise
     assert sum(false_alarms.REMAINDER_SHARES) == 1.0
     assert (selection.MOST - 1) * false_alarms.COMPANION < false_alarms.CATALOGUE
 
@@ -109,12 +109,12 @@ def test_the_levels_add_up_to_what_is_promised() -> None:
 def test_records_of_noise_keep_to_the_level_of_the_catalogue() -> None:
     """250 records of unit noise, 12 effects of four accelerometers with one or two parameters: some 50 ways to err."""
     rng = np.random.default_rng(5)
-    own = [f"e{e}.{n}{a}" for e in range(12) for n in ("xy" if e % 2 == 0 else "x") for a in (1, 2, 3, 4)]
+    names = [f"e{e}.{n}{a}" for e in range(12) for n in ("xy" if e % 2 == 0 else "x") for a in (1, 2, 3, 4)]
     alarms, runs = 0, 250
     for _ in range(runs):
-        X = rng.normal(size=(90, len(own)))
+        X = rng.normal(size=(90, len(names)))
         X[:, 1::2] += 2.0 * X[:, ::2]  # accelerometers of one disc look alike
-        alarms += bool(selection.choose(field(X, rng.normal(size=90), own)))
+        alarms += bool(selection.choose(field(X, rng.normal(size=90), names)))
     assert stats.binom.sf(alarms - 1, runs, false_alarms.CATALOGUE) > 0.01, alarms
 
 
@@ -124,8 +124,8 @@ def test_of_two_effects_those_accelerometers_are_chosen_that_have_both() -> None
     v = 0.9 * u + 0.44 * r
     X = np.column_stack([u, u + 0.3 * w, v, v + 0.3 * z])
     y = X @ [0.0, 60.0, 0.0, -60.0] + rng.normal(size=400)
-    found = selection.choose(field(X, y, ["e.x1", "e.x2", "f.x1", "f.x2"]))
-    assert found == {"e": (1,), "f": (3,)}
+    choice = selection.choose(field(X, y, ["e.x1", "e.x2", "f.x1", "f.x2"]))
+    assert choice == {"e": (1,), "f": (3,)}
 
 
 def test_an_e_value_has_mean_one_under_the_null() -> None:
@@ -190,10 +190,10 @@ def test_two_that_the_record_cannot_tell_apart_share_the_probability_and_noise_h
     rng = np.random.default_rng(3)
     X = drawn(rng)
     X[:, 1] = X[:, 0]
-    found = weigh_effects(field_of(X, X[:, 0] * 4.0 + rng.normal(size=len(X))), ())
-    assert found.of["e0"] == pytest.approx(found.of["e1"])
-    assert 0.4 < found.of["e0"] < 0.6
-    assert {("e0",), ("e1",)} <= set(found.credible)
+    weights = weigh_effects(field_of(X, X[:, 0] * 4.0 + rng.normal(size=len(X))), ())
+    assert weights.of["e0"] == pytest.approx(weights.of["e1"])
+    assert 0.4 < weights.of["e0"] < 0.6
+    assert {("e0",), ("e1",)} <= set(weights.credible)
     nothing = weigh_effects(field_of(drawn(rng), rng.normal(size=60)), ())
     assert nothing.credible[0] == ()
     assert max(nothing.of.values()) < 0.3
@@ -204,10 +204,10 @@ def test_of_an_effect_that_the_model_explains_otherwise_or_does_without_it_is_no
     1.0 of the right one. Of random effects the p-value is all there is.
     """
     error = Error(*(1.0,) * 4)
-    found = Probabilities({"right": 1.0, "faint": 0.02}, (("right",),))
-    said = {}
+    probabilities = Probabilities({"right": 1.0, "faint": 0.02}, (("right",),))
+    values = {}
     for effect, log_p in (("right", -900.0), ("faint", -3.0), ("twin", -890.0), ("random", -9.0)):
         row = Ranked.without_columns(effect, likelihood_ratio.Test(1.0, 1, log_p, ()), error)
-        said[effect] = add_probability(row, found, {"right", "faint", "twin"}).probability
-    assert (said["right"], said["faint"], said["twin"]) == (1.0, 0.02, 0.0)
-    assert said["random"] is None
+        values[effect] = add_probability(row, probabilities, {"right", "faint", "twin"}).probability
+    assert (values["right"], values["faint"], values["twin"]) == (1.0, 0.02, 0.0)
+    assert values["random"] is None

@@ -141,10 +141,10 @@ def test_a_line_that_the_motion_does_not_make_is_said_and_bars_nothing() -> None
 
 
 def test_what_has_not_converged_says_so_and_adds_nothing(tmp_path: Path, monkeypatch) -> None:
-    found = calibration.minimise
+    minimise = calibration.minimise
 
     def stopped(*arguments: Any, **options: Any) -> Any:
-        return replace(found(*arguments, **options), converged=False, reason="stopped after")
+        return replace(minimise(*arguments, **options), converged=False, reason="stopped after")
 
     monkeypatch.setattr(calibration, "minimise", stopped)
     m = api.new(tmp_path / "m")
@@ -247,15 +247,15 @@ def test_noise_is_smoothed_to_the_best_prediction_at_the_ends_and_beside_gaps_to
     rng = np.random.default_rng(5)
     n, pole, std = 2000, 0.9, 2.0
     x = lfilter([1.0], [1.0, -pole], rng.standard_normal(n + 200))[200:]
-    there = np.ones(n, dtype=np.bool_)
-    there[1600:1620] = False
-    there[rng.random(n) < 0.08] = False  # codes of missing values: no run of a hundred samples is whole
+    present = np.ones(n, dtype=np.bool_)
+    present[1600:1620] = False
+    present[rng.random(n) < 0.08] = False  # codes of missing values: no run of a hundred samples is whole
     measured = x + std * rng.standard_normal(n)
-    C = toeplitz(pole ** np.arange(n) / (1 - pole**2))[np.ix_(there, there)]
-    best = C @ np.linalg.solve(C + std**2 * np.eye(len(C)), measured[there])
+    C = toeplitz(pole ** np.arange(n) / (1 - pole**2))[np.ix_(present, present)]
+    best = C @ np.linalg.solve(C + std**2 * np.eye(len(C)), measured[present])
     errors = [
-        float(np.sqrt(np.mean((e - x[there]) ** 2)))
-        for e in (predict_true(measured, there, std)[there], best, measured[there])
+        float(np.sqrt(np.mean((e - x[present]) ** 2)))
+        for e in (predict_true(measured, present, std)[present], best, measured[present])
     ]
     assert errors[0] < 1.15 * errors[1] < 0.7 * errors[2]
 
@@ -290,8 +290,8 @@ NO_END = {
 
 
 def test_the_end_of_a_range_is_recognised_and_nothing_else() -> None:
-    found = imu_saturation.clipped(np.clip(MOVING, -0.9, 0.9), ALL)
-    assert np.array_equal(found, np.abs(MOVING) >= 0.9)
+    mask = imu_saturation.clipped(np.clip(MOVING, -0.9, 0.9), ALL)
+    assert np.array_equal(mask, np.abs(MOVING) >= 0.9)
     assert imu_saturation.present(np.clip(MOVING, -0.9, 0.9), ALL, 0.0)
     for kind, x in NO_END.items():
         assert not imu_saturation.clipped(x, ALL).any(), kind

@@ -102,9 +102,9 @@ def changes(page: Page, selector: str, before: bytes) -> None:
 
 def best(page: Page) -> str:
     """The effect that stands first."""
-    found = page.locator(".ranking li").first.get_attribute("data-effect")
-    assert found is not None
-    return found
+    effect = page.locator(".ranking li").first.get_attribute("data-effect")
+    assert effect is not None
+    return effect
 
 
 def figure(page: Page, selector: str) -> float:

@@ -62,8 +62,8 @@ def test_undo_and_redo_walk_along_a_branch() -> None:
     words = (
         "new, add lag, add time-offset, undo 1, undo 0, redo 1, edit, undo 1, redo 6, calibrate, restore 2"
     )
-    made = [(*w.split(), "")[:2] for w in words.split(", ")]
-    steps = [HistoryStep(action, "2026-01-01", effect, text="x") for action, effect in made]
+    commands = [(*w.split(), "")[:2] for w in words.split(", ")]
+    steps = [HistoryStep(action, "2026-01-01", effect, text="x") for action, effect in commands]
 
     def state(count: int) -> tuple[list[int], int | None, int | None]:
         b = Branches(steps[:count])
@@ -83,35 +83,35 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
     m = api.load(tmp_path / "model")
     path = tmp_path / "flight.csv"
     foreign(path)
-    given = mapping.draft(m, path)
-    asked = [r for r in given["rows"] if r["asked"]]
+    draft = mapping.draft(m, path)
+    asked = [r for r in draft["rows"] if r["asked"]]
     assert [r["channel"] for r in asked] == ["a_x", "a_y", "a_z"]
-    assert "not answered" in mapping.try_mapping(m, path, given)["error"]["what"]
+    assert "not answered" in mapping.try_mapping(m, path, draft)["error"]["what"]
     for r in asked:
         r["unit"] = "g"
-    found = mapping.try_mapping(m, path, given)
-    assert found["error"] is None
-    x = next(p for p in found["preview"] if p["channel"] == "a_z")
+    trial = mapping.try_mapping(m, path, draft)
+    assert trial["error"] is None
+    x = next(p for p in trial["preview"] if p["channel"] == "a_z")
     raw = pyarrow.csv.read_csv(path)["ACC_Z"].to_numpy()
     assert x["unit"] == "m/s²"
     n = len(x["points"])
     assert x["points"] == pytest.approx(raw[:: len(raw) // n][:n] * m.instrument.g0)
     for r in asked:
         r["unit"] = "m/s^2"
-    found = mapping.try_mapping(m, path, given)
-    mapping.keep(m, path, given, replace=False)
+    trial = mapping.try_mapping(m, path, draft)
+    mapping.keep(m, path, draft, replace=False)
     m = api.load(tmp_path / "model")
     (flight,) = api.read_flights(m, [path])
     assert flight.channels["a_z"] == pytest.approx(raw)
-    assert tomllib.loads(found["text"]) == tomllib.loads((tmp_path / "model" / "mapping.toml").read_text())
+    assert tomllib.loads(trial["text"]) == tomllib.loads((tmp_path / "model" / "mapping.toml").read_text())
     assert mapping.draft(m, path)["rows"][0]["unit"] == "m/s^2"
-    given["rows"][0]["sign"] = -1
+    draft["rows"][0]["sign"] = -1
     with pytest.raises(UserError, match="mapping already"):
-        mapping.keep(m, path, given, replace=False)
-    mapping.keep(m, path, given, replace=True)
+        mapping.keep(m, path, draft, replace=False)
+    mapping.keep(m, path, draft, replace=True)
     column = {"column": 'x"\n[time]', "unit": "g"}
     for wrong in ({"scale": {"a": 1}}, column, {"scale": math.nan}, {"unit": "]"}):
-        bad = given | {"rows": [given["rows"][0] | wrong]}
+        bad = draft | {"rows": [draft["rows"][0] | wrong]}
         assert mapping.try_mapping(m, path, bad)["error"]
         with pytest.raises(UserError):
             mapping.keep(m, path, bad, replace=True)
@@ -179,10 +179,10 @@ def ask(server: Served, client: httpx.Client, what: str, *headers: str, host: st
     lines = [f"{what} HTTP/1.1", f"Host: {host}", f"Cookie: {cookie}", *headers, "Connection: close", "", "x"]
     with socket.create_connection(("127.0.0.1", server.port), timeout=30) as s:
         s.sendall("\r\n".join(lines).encode("latin-1"))
-        found = b""
+        answer = b""
         while part := s.recv(65536):
-            found += part
-    return found.decode("latin-1").split()[1]
+            answer += part
+    return answer.decode("latin-1").split()[1]
 
 
 def test_the_token_serves_once_and_the_cookie_keeps_to_its_site(server: Served, client: httpx.Client) -> None:
@@ -269,10 +269,10 @@ def test_uploads_keep_to_their_folder_their_kinds_and_their_size(client, folder,
         return str(answer.json()["path"])
 
     with ThreadPoolExecutor(2) as pool:
-        found = list(pool.map(send, names))
+        answers = list(pool.map(send, names))
     inside = folder / "model" / "flights"
     kept = ["evil-2.csv", "evil.csv"]
-    assert sorted(found) == [str(inside / n) for n in kept]
+    assert sorted(answers) == [str(inside / n) for n in kept]
     damaged = client.post("/api/upload", params={"name": "damaged.parquet"}, content=b"PAR1 no more")
     assert damaged.status_code == 400
     assert "cannot be read" in damaged.json()["error"]["what"]
@@ -293,11 +293,11 @@ def test_a_request_that_does_not_arrive_is_closed(client: httpx.Client, server: 
         f"POST /api/do/look HTTP/1.1\r\nContent-Type: application/json\r\n{head}",
     )
     with ExitStack() as stack:
-        found = [stack.enter_context(socket.create_connection(("127.0.0.1", server.port))) for _ in begun]
-        for s, text in zip(found, begun, strict=True):
+        sockets = [stack.enter_context(socket.create_connection(("127.0.0.1", server.port))) for _ in begun]
+        for s, text in zip(sockets, begun, strict=True):
             s.sendall(text.encode())
             s.settimeout(PATIENCE)
-        for s in found:
+        for s in sockets:
             assert s.recv(99) == b""
     arrived, end = folder / "model" / "flights" / "slow.csv", time.monotonic() + PATIENCE
     while arrived.exists() and time.monotonic() < end:  # it is removed once the server has noticed
@@ -413,16 +413,16 @@ def test_a_directory_that_several_change_loses_nothing(server, client, folder) -
             assert "cancelled" in state["status"]["error"]["what"]
         # a shell adds an effect while the page shows the old state: the page's change is refused, not laid over it
         api.add(api.load(model), "bias-drift")
-        there = effects()
+        present = effects()
         row = next(r for r in one.get("/api/state").json()["sheet"]["rows"] if r["name"] == "K0")
         change = {"values": {"K0": {"value": [1.0, 2.0, 3.0, 4.0], "unit": row["unit"]}}}
         refused = two.post("/api/do/edit", json=change)
         if refused.status_code != 202:
             assert "meantime" in refused.json()["error"]["what"] or refused.status_code == 409
-        assert effects() == there
+        assert effects() == present
         with one.stream("GET", "/api/events") as events:  # whoever listens makes the server look
             for _ in events.iter_lines():
-                if [e["id"] for e in one.get("/api/state").json()["model"]["effects"]] == there:
+                if [e["id"] for e in one.get("/api/state").json()["model"]["effects"]] == present:
                     break
         compared(one)
         answers = [c.post("/api/do/edit", json=change) for c in (one, two)]
@@ -440,7 +440,7 @@ def test_a_directory_that_several_change_loses_nothing(server, client, folder) -
                     break
         server.process.kill()
         server.process.wait(10)
-    added = effects() != there
-    assert effects() == ([*there, "thermal-scale"] if added else there)
+    added = effects() != present
+    assert effects() == ([*present, "thermal-scale"] if added else present)
     assert len(load_model_dir(model).history) == steps + added
     assert [p.name for p in folder.iterdir() if p.name.startswith(".")] == []
