@@ -441,8 +441,8 @@ def _find_lines(x: Array, present: Mask, step: float) -> Mask:
         if np.any(kinks > KINK * usual) and np.max(off) <= finest < abs(x[last] - x[first]) / COARSE:
             bent = max(float(np.max(bend[run])), 2 * step, float(np.spacing(8 * np.max(np.abs(x)))))
             filled[first + 1 : last] |= len(x) * (bent / usual) ** (last - first - 1) < RARE
-    few = np.sum(filled) < FEWEST  # of numbers in single precision a few are on a line by chance
-    return filled & ~find_short_runs(filled, 2) if few else filled
+    # where a curve without noise bends the other way one sample is on a line, in single precision two by chance
+    return filled & ~find_short_runs(filled, 2)
 
 
 def _find_lost(x: Array, present: Mask, stuck: Mask) -> Mask:

@@ -195,13 +195,13 @@ def test_readings_that_did_not_arrive_are_left_out() -> None:
     x[[500, 3000, 3001]] = 0.0
     x[1000:3000:400] = 0.7  # a code within the range
     x[4999:5051] = np.linspace(x[4999], x[5050], 52).round(9)
-    x[7001:7041:2] = (x[7000:7040:2] + x[7002:7042:2]) / 2
     flight = leave_out_repeated(Flight(TIME, {"a_y": x}, {}))
-    lost = np.r_[500, 1000:3000:400, 3000, 3001, 5000:5050, 7001:7041:2]
+    lost = np.r_[500, 1000:3000:400, 3000, 3001, 5000:5050]
     assert np.array_equal(np.flatnonzero(~flight.valid), np.union1d(held, lost))
     coarse = np.round(rng.standard_normal((3, N)))
     knots = np.r_[0, np.sort(rng.random(90)) * 599, 600]
     ramps = [np.interp(TIME, knots, rng.random(92)).round(9) for _ in "xyz"]
+    ramps[0] = np.sin(np.pi / 4 * np.arange(N))  # planned, without noise
     for x in (coarse, 400 * coarse + np.arange(N) % 3 * 100, ramps):  # of the second no neighbours are equal
         assert leave_out_repeated(Flight(TIME, dict(zip(SPECIFIC_FORCE, x, strict=True)), {})).valid.all()
 
