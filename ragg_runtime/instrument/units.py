@@ -107,10 +107,10 @@ class Units:
         raise UserError("not a unit", where=where, found=repr(text), expected=_EXAMPLES, remedy=remedy)
 
     def divide(self, unit: str, by: Iterable[str]) -> str:
-        """A unit over some others, each symbol once: ``1/K`` for m/s^2 over m/s^2 and K."""
-        quotient = self.parse(unit)
+        """An SI unit over some others, products of products too, each symbol once: ``1/K`` for m/s^2 over m/s^2 and K."""
+        quotient = self._registry.parse_units(unit)
         for other in by:
-            quotient /= self.parse(other)
+            quotient /= self._registry.parse_units(other)
         return f"{quotient:~C}".replace("**", "^") or "1"
 
     def to_si(self, value: Value, unit: str, si_unit: str, where: str | None = None) -> Value:
