@@ -432,7 +432,8 @@ def _find_lines(x: Array, present: Mask, step: float) -> Mask:
     finest = max(STRAIGHT * float(np.median(rough)) if len(rough) else 0.0, 2 * step)
     if np.mean(bend <= finest) > HELD:  # a table's ramps, or what is read seldom and unevenly: made of lines
         return filled
-    for run in runs(bend <= finest):
+    # where a curve without noise bends the other way one sample is on a line, in single precision two by chance
+    for run in runs(bend <= finest, 3):
         first, last = run.start, run.stop + 1
         kinks = bend[[max(first - 1, 0), min(run.stop, len(bend) - 1)]]
         near = bend[max(first - LOCAL, 0) : last + LOCAL]
@@ -441,8 +442,7 @@ def _find_lines(x: Array, present: Mask, step: float) -> Mask:
         if np.any(kinks > KINK * usual) and np.max(off) <= finest < abs(x[last] - x[first]) / COARSE:
             bent = max(float(np.max(bend[run])), 2 * step, float(np.spacing(8 * np.max(np.abs(x)))))
             filled[first + 1 : last] |= len(x) * (bent / usual) ** (last - first - 1) < RARE
-    # where a curve without noise bends the other way one sample is on a line, in single precision two by chance
-    return filled & ~find_short_runs(filled, 2)
+    return filled
 
 
 def _find_lost(x: Array, present: Mask, stuck: Mask) -> Mask:
