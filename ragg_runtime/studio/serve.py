@@ -82,6 +82,7 @@ def serve(
         with contextlib.suppress(KeyboardInterrupt):  # which is how one ends it: what was done is kept
             uvicorn.Server(config).run(sockets=[listening])
         session.jobs.cancel()
+        session.jobs.wait(WHOLE)  # a thread that is in compiled code when Python ends aborts the process
 
 
 def _listen(port: int) -> socket.socket:
