@@ -231,7 +231,7 @@ KINK = 0.1
 """Second difference, over the usual one thereabouts, at an end of a gap that was filled by a line; next to an inflection it is small."""
 
 STRAIGHT = 1e-3
-"""Second difference, over the root mean square of all, below which three samples lie on one line: digits that were written make
+"""Second difference, over the usual one, below which three samples lie on one line: digits that were written make
 less, and of recorded values one in a thousand bends so little."""
 
 # pairs of neighbours on either side, at least, that tell how often a column repeats a value there
@@ -348,8 +348,8 @@ def _find_repeated(x: Array, present: Mask, turning: bool) -> _Repeated | None:
     if joined is not None:
         return joined
     stuck = _find_stuck(x, present, equal, step or 0.0, turning)
-    lines = _find_lines(x, present, step or 0.0) & ~(stuck | turning | coarse)
-    repeated = _Repeated("interpolated" if lines.any() else "stuck", stuck | lines)
+    filled = stuck if turning or coarse else stuck | _find_lines(x, present, step or 0.0)
+    repeated = _Repeated("stuck" if np.array_equal(filled, stuck) else "interpolated", filled)
     return repeated if repeated.left_out.any() else None
 
 
