@@ -23,7 +23,8 @@ $(STAMP): requirements.lock pyproject.toml
 	@touch $@
 
 demo: $(STAMP)  ## find a hidden effect in a recorded flight, add it, watch the error fall
-	$(BIN)/python -m examples.demo
+	rm -rf demo-output
+	$(BIN)/ragg demo --output demo-output
 
 studio: $(STAMP)  ## open the demonstration in a browser: look, tick, derive, watch the error fall
 	@test -d demo-studio || $(BIN)/ragg new demo-studio > /dev/null

@@ -6,16 +6,14 @@ import argparse
 import multiprocessing
 import os
 import platform
-import subprocess
 import sys
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from importlib import metadata
 from pathlib import Path
 
-from benchmarks import commands, evaluation
+from benchmarks import ROOT, commands, commit, evaluation, table
 
-ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "contributors" / "benchmarks.md"
 TABLES = "Measured on: "  # where the tables begin on the page; what is above is written by hand
 # Functions that return the rows of a table; their first line is what is said above it
@@ -29,11 +27,9 @@ def describe_machine() -> str:
     lines = info.read_text("utf-8").split("\n\n", 1)[0].splitlines() if info.exists() else []
     cpu = {key.strip(): value.strip() for key, _, value in (line.partition(":") for line in lines)}
     flags = cpu.get("flags", cpu.get("Features", "")).split()
-    words = ["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"]
     versions = " ".join(f"{name} {metadata.version(name)}" for name in ("numpy", "scipy", "sympy"))
     return (
-        f"commit {subprocess.run(words, capture_output=True, text=True, check=False).stdout.strip()}; "
-        f"processor {cpu.get('model name', platform.machine())}; cores {os.cpu_count()}; vector instructions "
+        f"commit {commit()}; processor {cpu.get('model name', platform.machine())}; cores {os.cpu_count()}; vector instructions "
         f"{' '.join(v for v in ('avx512f', 'avx2', 'avx', 'sse4_2', 'asimd', 'sve') if v in flags)}; "
         f"system {platform.system()} {platform.machine()}; Python {platform.python_version()}; {versions}."
     )
@@ -45,7 +41,7 @@ def measure(name: str) -> str:
     with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
         try:
             rows = pool.submit(run).result()
-            text = "\n".join(["| what | value | target |", "|---|---:|---|", *map(str, rows)])
+            text = table(("what", "value", "target"), (r.cells() for r in rows), right=[1])
         except Exception as error:
             text = f"Failed: {type(error).__name__}: {error}."
     return f"### {name}\n\n{(run.__doc__ or name).splitlines()[0]}\n\n{text}\n"
@@ -53,12 +49,11 @@ def measure(name: str) -> str:
 
 def main(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
-    parser.add_argument(
-        "names", nargs="*", metavar="NAME", help=f"{', '.join(BENCHMARKS)}; none: {', '.join(USUAL)}"
-    )
+    known, usual = ", ".join(BENCHMARKS), ", ".join(USUAL)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"{known}; none: {usual}")
     names = parser.parse_args(arguments).names
     if unknown := [a for a in names if a not in BENCHMARKS]:
-        parser.error(f"unknown benchmark: {', '.join(unknown)}; known: {', '.join(BENCHMARKS)}")
+        parser.error(f"unknown benchmark: {', '.join(unknown)}; known: {known}")
     sections = []
     for name in names or USUAL:
         sections.append(measure(name))

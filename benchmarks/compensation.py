@@ -21,9 +21,9 @@ PERIODS = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 12.0, 20.0, 40.0, 90.0, 2
 SIZE = 20.0  # of each wave, Eo
 
 
-def transfer(duration: float = 7200.0) -> dict[str, tuple[Complex, Complex]]:
+def transfer() -> dict[str, tuple[Complex, Complex]]:
     """Demodulator -> gains of compensation and of the low-pass alone over :data:`PERIODS`."""
-    s = scenario(21, duration=duration, rate=4.0)  # the motion ends at 1.8 Hz
+    s = scenario(21, duration=7200.0, rate=4.0)  # the motion ends at 1.8 Hz
     x = s.simulate({}).flight()
     t = x.time
     basis = np.exp(2j * np.pi * (t[:, None] / PERIODS + np.arange(len(PERIODS)) / 7))
@@ -39,13 +39,6 @@ def transfer(duration: float = 7200.0) -> dict[str, tuple[Complex, Complex]]:
         gains = np.linalg.lstsq(basis[ok], difference[ok] / SIZE, rcond=None)[0]
         pairs[name] = gains, np.asarray(c.demodulator.response(1 / PERIODS))
     return pairs
-
-
-def print_gains() -> None:
-    """Of each demodulator."""
-    for name, (gains, alone) in transfer().items():
-        for period, gain, low in zip(PERIODS, gains, alone, strict=True):
-            print(f"{name:12} {period:7g} s  {abs(gain):.4f}, low-pass alone {abs(low):.4f}")
 
 
 def draw_transfer(file: Path) -> None:
@@ -67,4 +60,6 @@ def draw_transfer(file: Path) -> None:
 
 
 if __name__ == "__main__":
-    print_gains()
+    for name, (gains, alone) in transfer().items():
+        for period, gain, low in zip(PERIODS, gains, alone, strict=True):
+            print(f"{name:12} {period:7g} s  {abs(gain):.4f}, low-pass alone {abs(low):.4f}")

@@ -16,7 +16,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -27,7 +27,7 @@ from ragg_runtime.model import chain
 from ragg_runtime.model.model import load_packaged
 
 Array = NDArray[np.float64]
-Function = Callable[[Array, Array], Array]  # evaluates (t, inputs)
+Function = Callable[[Array], Array]  # evaluates (16, n) series: t, and the inputs
 SIZES = {"streaming": (1_000_000, 1), "in cache": (16_000, 20)}  # samples, and calls in a row
 START, RATE = 1e4, 100.0  # s, Hz
 OURS, HEYOKA = "generated C, compiled", "heyoka cfunc"
@@ -46,16 +46,16 @@ def interleave(functions: Mapping[str, Callable[[], object]], inner: int) -> dic
     """
     for function in functions.values():
         function()
-    times: dict[str, list[float]] = {name: [] for name in functions}
-    for _ in range(ROUNDS):
+    times = {name: np.empty(ROUNDS) for name in functions}
+    for k in range(ROUNDS):
         for name, function in functions.items():
             if inner > 1:
                 function()
             start = time.process_time()
             for _ in range(inner):
                 function()
-            times[name].append((time.process_time() - start) / inner)
-    return {name: np.array(t) for name, t in times.items()}
+            times[name][k] = (time.process_time() - start) / inner
+    return times
 
 
 def aligned(x: Array) -> Array:
@@ -67,12 +67,12 @@ def aligned(x: Array) -> Array:
     return copy
 
 
-def instrument_and_motion(n: int) -> tuple[Array, Array, Array]:
-    """(t, inputs, p): Tables V and VI of the paper, at random; t from START s on."""
+def motion_and_instrument(n: int) -> tuple[Array, Array]:
+    """(16, n) series and p: Tables V and VI of the paper, at random; t from START s on."""
     from tests.generated import draws
 
     draw = np.random.default_rng(5)
-    return START + np.arange(n) / RATE, draws.motion(draw, n), draws.instrument(draw)
+    return np.vstack([START + np.arange(n) / RATE, draws.motion(draw, n)]), draws.instrument(draw)
 
 
 # --- what is timed ---------------------------------------------------------------------------------------
@@ -81,7 +81,7 @@ def instrument_and_motion(n: int) -> tuple[Array, Array, Array]:
 def contenders(p: Array) -> dict[str, Function]:
     """Ours allocate what they return, as for users; heyoka only where it is installed."""
     compiled = load_packaged().chain
-    functions: dict[str, Function] = {OURS: lambda t, x: compiled.output(t, x, p)}
+    functions: dict[str, Function] = {OURS: lambda x: compiled.output(x[0], x[1:], p)}
     try:
         return functions | {HEYOKA: heyoka(p)}
     except ModuleNotFoundError as error:
@@ -96,17 +96,8 @@ def heyoka(p: Array) -> Function:
     phi = 2 * np.pi * float(p[1]) * variables[0]
     G = write_function(program(p), hy)(hy.cos(phi), hy.sin(phi), *variables[1:])
     compiled = hy.cfunc([G], list(variables))
-    buffers: dict[int, tuple[Array, Array]] = {}
-
-    def run(t: Array, x: Array) -> Array:
-        if id(x) not in buffers:  # it wants one matrix: putting that together is not timed
-            buffers.clear()
-            buffers[id(x)] = aligned(np.vstack([t, x])), aligned(np.zeros((1, len(t))))
-        inputs, outputs = buffers[id(x)]
-        compiled(inputs=inputs, outputs=outputs)
-        return outputs[0]
-
-    return run
+    room = cache(lambda n: aligned(np.zeros((1, n))))  # making it is not timed
+    return lambda x: compiled(inputs=x, outputs=room(x.shape[1]))[0]  # type: ignore[no-any-return]
 
 
 def program(p: Array) -> Sequence[tuple[str, Any]]:
@@ -134,33 +125,31 @@ def program(p: Array) -> Sequence[tuple[str, Any]]:
 
 def write_function(code: Sequence[tuple[str, Any]], module: Any) -> Callable[..., Any]:
     """The program as a Python function of (cos_phi, sin_phi, *inputs), with the functions of a module."""
-    from sympy.printing.pycode import pycode
+    import sympy as sp
 
-    lines = [f"    {name} = {pycode(e)}" for name, e in code]
-    head = f"def g(cos_phi, sin_phi, {', '.join(INPUTS)}):"
-    space: dict[str, Any] = {"math": module}
-    exec("\n".join([head, *lines, "    return G"]), space)
-    return space["g"]  # type: ignore[no-any-return]
+    *assignments, (_, G) = ((sp.Symbol(name), e) for name, e in code)
+    inputs = ("cos_phi", "sin_phi", *INPUTS)
+    return sp.lambdify(inputs, G, module, cse=lambda _: (assignments, G))  # type: ignore[no-any-return]
 
 
 TRAFFIC = """
 #include <stddef.h>
 /* As many streams as the model reads and writes, and as little arithmetic as keeps the reads alive. */
-void traffic(size_t n, const double *restrict t, const double *restrict x, double *restrict out) {
+void traffic(size_t n, const double *restrict x, double *restrict out) {
     for (size_t i = 0; i < n; ++i) {
-        out[i] = t[i] %s;
+        out[i] = %s;
     }
 }
 """
 
 
 def memory_traffic(out: Array) -> Function:
-    """Reads t and the 15 rows of x and writes ``out``, by a small C loop: the memory bound."""
-    streams = " ".join(f"+ x[{k} * n + i]" for k in range(len(INPUTS)))
+    """Reads the 16 series and writes ``out``, by a small C loop: the memory bound."""
+    streams = " + ".join(f"x[{k} * n + i]" for k in range(1 + len(INPUTS)))
     library = chain.load(chain.compile_library({"traffic.c": TRAFFIC % streams}))
 
-    def run(t: Array, x: Array) -> Array:
-        library.traffic(ctypes.c_size_t(len(t)), *(ctypes.c_void_p(a.ctypes.data) for a in (t, x, out)))
+    def run(x: Array) -> Array:
+        library.traffic(ctypes.c_size_t(len(out)), *(ctypes.c_void_p(a.ctypes.data) for a in (x, out)))
         return out
 
     return run
@@ -170,12 +159,12 @@ def errors(p: Array, functions: Mapping[str, Function]) -> dict[str, float]:
     """Largest difference from the 50-digit value, Eo."""
     from tests.generated import fifty_digits as fifty
 
-    t, x, _ = instrument_and_motion(40)
+    x, _ = motion_and_instrument(40)
     q = fifty.exact(p)
-    true = [fifty.output(s, fifty.exact(x[:, n]), q) for n, s in enumerate(fifty.exact(t))]
+    true = [fifty.output(t, now, q) for t, *now in (fifty.exact(column) for column in x.T)]
     scale = 1e-9 * float(np.sum(p[-4:] * p[30:34] * (p[0] + p[2:6])))
     return {
-        name: max(abs(float(fifty.real(float(g)) - v)) for g, v in zip(f(t, x), true, strict=True)) / scale
+        name: max(abs(float(fifty.real(float(g)) - v)) for g, v in zip(f(x), true, strict=True)) / scale
         for name, f in functions.items()
     }
 
@@ -184,14 +173,14 @@ def run() -> list[Row]:
     """How long evaluating the analytical model takes, a sample, on one core: ours, heyoka, and the memory's bound."""
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:1])
-    t, x, p = instrument_and_motion(SIZES["streaming"][0])
+    series, p = motion_and_instrument(SIZES["streaming"][0])
     functions = contenders(p)
     wrong = errors(p, functions)
     rows = [Row(f"{name}, error", e, "Eo", 1.2e-7 if name == OURS else None) for name, e in wrong.items()]
     for label, (n, inner) in SIZES.items():
-        inputs = aligned(t[:n]), aligned(x[:, :n])
+        x = aligned(series[:, :n])
         bound = memory_traffic(aligned(np.zeros(n)))
-        calls = {name: partial(f, *inputs) for name, f in (functions | {"bound": bound}).items()}
+        calls = {name: partial(f, x) for name, f in (functions | {"bound": bound}).items()}
         times = interleave(calls, inner)
         memory, ours = times.pop("bound"), times[OURS]
         for name, s in times.items():

@@ -15,7 +15,6 @@ import hashlib
 import json
 import multiprocessing
 import operator
-import subprocess
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -26,12 +25,12 @@ from typing import Any
 
 from pandas import DataFrame
 
+from benchmarks import ROOT, commit
 from benchmarks.diagnosis import ablation, plan, records, score
 from benchmarks.diagnosis.fly import fly, tested
 from benchmarks.diagnosis.plan import Spec
 from examples.mimu import elsewhere
 
-ROOT = Path(__file__).resolve().parents[2]
 CACHE = ROOT / "build" / "bench-diagnosis.jsonl"
 
 # What the result of a flight depends on
@@ -46,9 +45,7 @@ class Cache:
         digest = hashlib.sha256()
         for file in sorted(p for folder in SOURCES for p in (ROOT / folder).rglob("*.py")):
             digest.update(file.relative_to(ROOT).as_posix().encode() + b"\0" + file.read_bytes() + b"\0")
-        words = ["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"]
-        commit = subprocess.run(words, capture_output=True, text=True, check=False).stdout
-        self.path, self.at = path, {"source": digest.hexdigest()[:12], "commit": commit.strip()}
+        self.path, self.at = path, {"source": digest.hexdigest()[:12], "commit": commit()}
         self.lines: dict[str, dict[str, Any]] = {}
         for line in path.read_text("utf-8").splitlines() if path.exists() else ():
             with suppress(json.JSONDecodeError):  # of a line that was cut off by an interruption
@@ -87,13 +84,13 @@ def fly_records(o: argparse.Namespace, cache: Cache) -> DataFrame:
 
 
 def _fly(
-    specs: Sequence[Spec], show: Callable[[DataFrame], list[str]], o: argparse.Namespace, cache: Cache
+    specs: Sequence[Spec], show: Callable[[DataFrame], str], o: argparse.Namespace, cache: Cache
 ) -> DataFrame:
     lines = cache.run({s.id: partial(fly, s) for s in specs}, o.jobs)
     rows = DataFrame([score.row(x) for x in lines])
-    print("\n" + "\n".join(show(rows)))
+    print(f"\n{show(rows)}")
     if o.against is not None:
-        print("\n".join(score.against(rows, score.read(o.against))))
+        print(score.against(rows, score.read(o.against)))
     return rows
 
 
@@ -102,7 +99,7 @@ def find_ceiling(o: argparse.Namespace, cache: Cache) -> DataFrame:
     specs = [s for n in o.seed or plan.REFERENCE for s in plan.specs(n) if s.kind in ("five", "ten")]
     lines = cache.run({f"ceiling/{s.id}": partial(tested, s) for s in specs}, o.jobs)
     rows = DataFrame(lines).drop(columns=["key", "source"]).astype(str)
-    print("\n" + "\n".join(score.ceiling(rows)))
+    print(f"\n{score.ceiling(rows)}")
     return rows
 
 
@@ -121,7 +118,7 @@ def ask_array(o: argparse.Namespace, cache: Cache) -> DataFrame:
         for a in x["answers"]:
             row = {"recording": recording, "case": case} | a | {"commit": x["commit"]}
             rows.append(row | {"holds": str(int(a["holds"])), "unfounded": "+".join(a["unfounded"])})
-    print("\n" + "\n".join(score.array(DataFrame(rows))))
+    print(f"\n{score.array(DataFrame(rows))}")
     return DataFrame(rows)
 
 
@@ -133,8 +130,8 @@ def ablate(o: argparse.Namespace, cache: Cache) -> DataFrame:
         on = cache.run({f"/{s.id}": partial(fly, s) for s in specs}, o.jobs)
         off = cache.run({f"{r.id}/{s.id}": partial(ablation.without, r.id, s) for s in specs}, o.jobs)
         rows.append(ablation.row(r, on, off))
-        print("\n" + "\n".join(score.ablation(DataFrame(rows[-1:]))), flush=True)
-    print("\n".join(score.ablation(DataFrame(rows))))
+        print(f"\n{score.ablation(DataFrame(rows[-1:]))}", flush=True)
+    print(score.ablation(DataFrame(rows)))
     return DataFrame(rows)
 
 

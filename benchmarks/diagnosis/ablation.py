@@ -168,14 +168,14 @@ def without(rule: str, spec: Spec) -> dict[str, Any]:
 
 
 # Where a flight on which a rule acts differs without it
-SAID = ("verdict", "found", "ranking", "terms", "after")
+SAID = ("verdict", "found", "ranking", "unexplained", "error")
 
 
 def row(rule: Rule, on: Sequence[Line], off: Sequence[Line]) -> dict[str, Any]:
     """What changes without a rule; lines of flights with it and without it."""
-    before, after = ([score.outcome(x) for x in lines] for lines in (on, off))
-    change = [score.WORTH[b] - score.WORTH[a] for a, b in zip(before, after, strict=True)]
-    moved = Counter(f"{a} to {b}" for a, b in zip(before, after, strict=True) if a != b)
+    pairs = [(score.outcome(a), score.outcome(b)) for a, b in zip(on, off, strict=True)]
+    change = [score.WORTH[b] - score.WORTH[a] for a, b in pairs]
+    moved = Counter(f"{a} to {b}" for a, b in pairs if a != b)
     time = [sum(x.get("cpu", 0.0) for x in lines) for lines in (on, off)]
     acts = sum(any(a.get(n) != b.get(n) for n in SAID) for a, b in zip(on, off, strict=True))
     return {
@@ -186,7 +186,7 @@ def row(rule: Rule, on: Sequence[Line], off: Sequence[Line]) -> dict[str, Any]:
         "worse": sum(c < 0 for c in change),
         "better": sum(c > 0 for c in change),
         "other": moved.total() - np.count_nonzero(change),
-        "change": score.mean_change(before, after),
+        "change": score.mean_change(pairs),
         "time": f"{time[0]:.0f} s to {time[1]:.0f} s",
         "moved": ", ".join(f"{n} {m}" for m, n in sorted(moved.items())),
         "commit": on[0]["commit"],

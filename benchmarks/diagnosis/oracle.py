@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal, special
+from scipy import linalg, signal, special
 from scipy.interpolate import BSpline
 
 from benchmarks.diagnosis.plan import World
@@ -97,7 +97,7 @@ class Oracle:
         if not w.gradient:
             unknown = self.whitened(self._gradient())
             base.append(np.pad(unknown, ((0, 0), (0, self.n))))
-        self.Q = _orthonormal(np.concatenate(base))
+        self.Q = _basis(np.concatenate(base), 1e-10)
         self.white = white[self.n :]
         self.left = self.projected(self.white)
         self.kinds = {e.id: e.kind for e in effects if e.id not in NEVER}
@@ -138,6 +138,8 @@ class Oracle:
     ) -> Hidden | None:
         """An effect of this strength in a random direction of its parameters; ``None`` if that is not sane on this flight."""
         kind, at = self.kinds[effect], self.of(effect)
+        if kind == "output" and len(self.rms) > 1:
+            return None
         if kind == "output":
             return self._quantised(strength) if effect == "quantisation" else self._saturated(strength)
         if kind == "random":
@@ -155,11 +157,11 @@ class Oracle:
             values = _values(effect, columns, strength / norm * weights)
             size = float(np.max(np.abs(weights))) * strength / norm * design.EFFECT_PRIOR
             largest = LARGEST if strength <= 10.0 else LARGEST_STRONG
-            if size > largest or np.max(np.abs(np.concatenate([np.ravel(v) for v in values.values()]))) > (
-                LONGEST.get(effect, np.inf)
-            ):
-                continue
-            return Hidden(effect, values | ({} if instant is None else {"t_step": instant}), size, strength)
+            most = max(float(np.max(np.abs(v))) for v in values.values())
+            if size <= largest and most <= LONGEST.get(effect, np.inf):
+                return Hidden(
+                    effect, values | ({} if instant is None else {"t_step": instant}), size, strength
+                )
         return None
 
     def row(self, change: Array) -> Array:
@@ -180,16 +182,12 @@ class Oracle:
         size = design.EFFECT_PRIOR * sigma / c.scale
         return None if size > LARGEST else Hidden(effect, {"sigma_phi": sigma}, size, strength)
 
-    def _quantised(self, strength: float) -> Hidden | None:
-        if len(self.rms) > 1:
-            return None
+    def _quantised(self, strength: float) -> Hidden:
         rms = float(np.sqrt(np.mean(self.rms**2)))
         q = float(rms * np.sqrt(12 * strength * np.sqrt(2 / self.rows)))
         return Hidden("quantisation", {"q": q}, float("nan"), strength)
 
-    def _saturated(self, strength: float) -> Hidden | None:
-        if len(self.rms) > 1:
-            return None
+    def _saturated(self, strength: float) -> Hidden:
         G = self.flight.outputs["G_out"]
         low, high = 0.0, float(np.sort(np.abs(G))[-CLIPPED])
 
@@ -216,19 +214,14 @@ def whitening(noise_rms: Loudness, rate: float, size: int) -> Array:
     return np.asarray(np.fft.irfft(np.exp(np.fft.rfft(cepstrum)), n)[: min(size, 4096)])
 
 
-def _orthonormal(rows: Array) -> Array:
-    """(n, k): an orthonormal basis of rows (k, n)."""
-    Q, R = np.linalg.qr((rows / np.linalg.norm(rows, axis=1, keepdims=True)).T)
-    return np.asarray(Q[:, np.abs(np.diag(R)) > 1e-10])
+def _basis(rows: Array, rounding: float) -> Array:
+    """(n, k): an orthonormal basis of rows (k, n), those that are zero aside."""
+    sizes = np.linalg.norm(rows, axis=1)
+    return np.asarray(linalg.orth((rows[sizes > 0.0] / sizes[sizes > 0.0, None]).T, rounding))
 
 
 def _beside(signature: Array, others: Array) -> Array:
-    sizes = np.linalg.norm(others, axis=1)
-    if not np.any(sizes):
-        return signature
-    unit = others[sizes > 0.0] / sizes[sizes > 0.0, None]
-    U, s, _ = np.linalg.svd(unit.T, full_matrices=False)
-    U = U[:, s > 1e-7 * s[0]]
+    U = _basis(others, 1e-7)
     return np.asarray(signature - U @ (U.T @ signature))
 
 

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from benchmarks.diagnosis import records
 from ragg_runtime.instrument.instrument import DISC_UNITS, PARAMETERS, Instrument
 from ragg_runtime.instrument.layout import paper
+from ragg_runtime.instrument.model_toml import set_parameters
+from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import read_flight
 from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.motion import MotionSignals, Signal, recorded_motion
@@ -183,22 +185,9 @@ def world(s: Spec) -> World:
     )
 
 
-@dataclass(frozen=True)
-class _Later:
-    """A signal that begins later, by so many seconds."""
-
-    of: Signal
-    by: float
-
-    def value(self, time: Array, shift: float = 0.0) -> Array:
-        return self.of.value(time - self.by, shift)
-
-    def rate(self, time: Array, shift: float = 0.0) -> Array:
-        return self.of.rate(time - self.by, shift)
-
-
-def _later(part: Sequence[Signal], by: float) -> tuple[Signal, Signal, Signal]:
-    x, y, z = (_Later(signal, by) for signal in part)
+def _later(part: Sequence[Any], by: float) -> tuple[Signal, Signal, Signal]:
+    """Recorded signals that begin so many seconds later."""
+    x, y, z = (replace(signal, time=signal.time + by) for signal in part)
     return x, y, z
 
 
@@ -264,13 +253,11 @@ def model_text(instrument: Instrument) -> str:
         "effects": [],
         "model": {"kinematics": instrument.form.kinematics, "order": instrument.form.preset},
         "disc": {n: f"{getattr(instrument, n)!r} {unit}" for n, unit in DISC_UNITS.items()},
-        "accelerometers": {},
     }
     if instrument.demodulation is not None:
         document["demodulator"] = dict(instrument.demodulation.entries())
-    for p in PARAMETERS:
-        entry = {"value": instrument.accelerometers[p.name].tolist(), "unit": p.si_unit}
-        if p.name in instrument.sigmas:
-            entry["sigma"] = instrument.sigmas[p.name].tolist()
-        document["accelerometers"][p.name] = entry
-    return tomlkit.dumps(document)
+    values = {
+        p.name: RawQuantity(tuple(instrument.accelerometers[p.name].tolist()), p.si_unit) for p in PARAMETERS
+    }
+    sigmas = {n: tuple(x.tolist()) for n, x in instrument.sigmas.items()}
+    return set_parameters(tomlkit.dumps(document), values, sigmas)

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -403,9 +400,3 @@ def sampled(noise_rms: Loudness, density: float, rng: np.random.Generator, size:
     spectrum[:, 1:] = scale * (drawn[0] + 1j * drawn[1])
     spectrum[:, -1] = np.sqrt(2) * spectrum[:, -1].real
     return np.asarray(np.fft.irfft(spectrum, period)[:, :size] * noise_rms.level)
-
-
-def write(x: Table, units: Mapping[str, str], path: Path) -> None:
-    """A Parquet file with units in its columns' metadata."""
-    fields = [pa.field(n, pa.float64(), metadata={"units": units[n]}) for n in x]
-    pq.write_table(pa.table([pa.array(v) for v in x.values()], schema=pa.schema(fields)), path)

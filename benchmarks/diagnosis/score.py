@@ -16,7 +16,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -26,8 +26,9 @@ import pandas as pd
 from pandas import DataFrame
 from scipy import stats
 
+from benchmarks import table
 from benchmarks.diagnosis import plan, records
-from benchmarks.diagnosis.fly import SINCE
+from benchmarks.diagnosis.fly import PROBABLE, SINCE
 
 Line = Mapping[str, Any]  # the JSON object of one flight (``fly``), with its ``id``, ``kind`` and ``record``
 WORTH = {
@@ -50,8 +51,7 @@ def truths(x: Line) -> list[str]:
 
 def group(x: Line, effect: str) -> set[str]:
     """An effect with those that the diagnosis says it cannot tell from it."""
-    twins = next((r["twins"] for r in x["ranking"] if r["effect"] == effect), [])
-    return {effect, *twins}
+    return {effect}.union(*(r["indistinguishable_from"] for r in x["ranking"] if r["effect"] == effect))
 
 
 def outcome(x: Line) -> str:
@@ -72,7 +72,7 @@ def outcome(x: Line) -> str:
     if any(not g & (truth | allowed) for g in claims) or len(claims) > max(len(truth), len(allowed)):
         return "wrong"
     if not truth:
-        return "right" if silent or claims else "said" if x["reason"] else "unexplained"
+        return "right" if silent or claims else "said" if x["remark"] else "unexplained"
     named = truth & set().union(*claims)
     if not named:
         return "silent" if silent else "unexplained"
@@ -87,8 +87,8 @@ def alarm(x: Line) -> bool:
 def least_p(x: Line) -> dict[str, str]:
     """Family-wise p-values of an effect-free flight: of the effects, of the generic terms, and of both together."""
     best = min((-np.inf if r["log10_p"] is None else r["log10_p"] for r in x["ranking"]), default=0.0)
-    effects = min(1.0, x["tested"] * 10.0**best)
-    terms = min(1.0, 10.0 ** x["terms_log10_p"])
+    effects = min(1.0, x["tests"] * 10.0**best)
+    terms = min(1.0, 10.0 ** x["unexplained"]["log10_p"])
     both = min(1.0, 2.0 * min(effects, terms))
     return {"p_effects": f"{effects:.3g}", "p_terms": f"{terms:.3g}", "p": f"{both:.3g}"}
 
@@ -106,10 +106,11 @@ def row(x: Line) -> dict[str, str]:
     cells["found"] = "+".join(x.get("found", ()))
     if x["kind"] == "quiet":
         cells["alarm"] = int(alarm(x))
-        cells |= least_p(x) if "terms_log10_p" in x else {}
-    elif "probability" in x and x.get("hidden"):
+        cells |= least_p(x) if "unexplained" in x else {}
+    elif "credible_set" in x and x["hidden"]:
         truth = set(truths(x))
-        cells["probability"] = ";".join(f"{p:g}{'*' * (e in truth)}" for e, p in x["probability"].items())
+        likely = {r["effect"]: p for r in x["ranking"] if (p := r["probability"] or 0.0) > PROBABLE}
+        cells["probability"] = ";".join(f"{round(p, 4):g}{'*' * (e in truth)}" for e, p in likely.items())
         cells["credible"] = int(any(set(s) == truth for s in x["credible_set"]))
     return {n: str(cells.get(n, "")) for n in COLUMNS}
 
@@ -123,9 +124,9 @@ def share(passed: Iterable[bool]) -> str:
     return f"{hits} of {total} ({100 * hits / total:.0f} %, {100 * low:.0f}-{100 * high:.0f})"
 
 
-def mean_change(before: Iterable[str], after: Iterable[str]) -> str:
+def mean_change(outcomes: Iterable[tuple[str, str]]) -> str:
     """What outcomes after are worth more than those before: mean, and its 90 % interval."""
-    change = [WORTH[b] - WORTH[a] for a, b in zip(before, after, strict=True)]
+    change = [WORTH[b] - WORTH[a] for a, b in outcomes]
     return f"{np.mean(change):+.3f} ± {1.6449 * float(np.std(change)) / np.sqrt(len(change)):.3f}"
 
 
@@ -135,14 +136,7 @@ LEVELS = (0.01, 0.05, 0.2)
 EDGES = (0.001, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1.0001)
 
 
-def table(heads: Iterable[str], rows: Iterable[Iterable[object]]) -> list[str]:
-    """Lines of Markdown."""
-    lines = [[*heads], *([str(x) for x in r] for r in rows)]
-    lines.insert(1, ["---"] * len(lines[0]))
-    return [f"| {' | '.join(line)} |" for line in lines]
-
-
-def flights(rows: DataFrame) -> list[str]:
+def flights(rows: DataFrame) -> str:
     """Everything about flights."""
     of = {k: rows[rows.kind == k] for k in plan.COUNTS}
     hidden = rows[~rows.kind.isin(["quiet", "outside"])]
@@ -159,23 +153,34 @@ def flights(rows: DataFrame) -> list[str]:
         (what, *(share(tame[n][tame[n] != ""].astype(float) < a) for a in LEVELS))
         for n, what in tests.items()
     ]
-    return [
-        *("", "### Outcomes", ""),
-        *table(("kind", "what", *OUTCOMES, "right, 90 % interval"), counts),
-        *("", "### Wrong claims, and sets that hold the truth", ""),
-        *table(
-            ("flights", "a claim is wrong"), [(n, share(x.outcome == "wrong")) for n, x in claims.items()]
-        ),
-        "",
-        f"The credible set holds what is hidden: {share(hidden.credible[hidden.credible != ''] == '1')}.",
-        *("", "### Probabilities", ""),
-        *table(("stated", "mean", "hidden"), _reliability(hidden)),
-        *("", "### False alarms", ""),
-        f"On tame records, for which 5 % are promised: {share(tame.alarm == '1')}. Least family-wise p-values:",
-        "",
-        *table(("of", *(f"below {a:g}" for a in LEVELS)), p_values),
-        *("", "### By kind of record", "", *_by_record(rows), "", "### What went wrong", "", *_wrong(rows)),
-    ]
+    return f"""
+### Outcomes
+
+{table(("kind", "what", *OUTCOMES, "right, 90 % interval"), counts)}
+
+### Wrong claims, and sets that hold the truth
+
+{table(("flights", "a claim is wrong"), [(n, share(x.outcome == "wrong")) for n, x in claims.items()])}
+
+The credible set holds what is hidden: {share(hidden.credible[hidden.credible != ""] == "1")}.
+
+### Probabilities
+
+{table(("stated", "mean", "hidden"), _reliability(hidden))}
+
+### False alarms
+
+On tame records, for which 5 % are promised: {share(tame.alarm == "1")}. Least family-wise p-values:
+
+{table(("of", *(f"below {a:g}" for a in LEVELS)), p_values)}
+
+### By kind of record
+
+{_by_record(rows)}
+
+### What went wrong
+
+{_wrong(rows)}"""
 
 
 def _reliability(rows: DataFrame) -> Iterable[Sequence[str]]:
@@ -187,7 +192,7 @@ def _reliability(rows: DataFrame) -> Iterable[Sequence[str]]:
         yield f"{low:g} to {min(high, 1.0):g}", f"{part.p.mean():.3f}", share(part.hidden)
 
 
-def _by_record(rows: DataFrame) -> list[str]:
+def _by_record(rows: DataFrame) -> str:
     groups = {"nothing hidden": ["quiet"], "one or two effects": ["five", "ten", "strong", "pair"]}
     groups["outside"] = ["outside"]
     lines = []
@@ -197,41 +202,38 @@ def _by_record(rows: DataFrame) -> list[str]:
     return table(("record", *groups), lines)
 
 
-def _wrong(rows: DataFrame) -> list[str]:
+def _wrong(rows: DataFrame) -> str:
     bad = rows[~rows.outcome.isin(["right", "said"])].sort_values("id")
     worst_first = [r for o in OUTCOMES[::-1] for r in bad[bad.outcome == o].itertuples()]
     lines = [(r.id, r.hidden, f"{r.verdict} {r.found}".strip(), r.outcome) for r in worst_first]
     return table(("flight", "hidden", "diagnosed", "outcome"), lines)
 
 
-def against(rows: DataFrame, before: DataFrame) -> list[str]:
+def against(rows: DataFrame, before: DataFrame) -> str:
     """What has changed, flight by flight, since other results."""
     merged = rows.merge(before, on="id", suffixes=("", "_before"))
     lines = []
     for k in plan.COUNTS:
         part = merged[merged.kind == k]
         if len(part):
-            pairs = zip(part.outcome_before, part.outcome, strict=True)
+            pairs = [*zip(part.outcome_before, part.outcome, strict=True)]
             moved = Counter(f"{a} to {b}" for a, b in pairs if a != b).most_common()
-            change = mean_change(part.outcome_before, part.outcome)
-            lines.append((k, len(part), change, ", ".join(f"{n} {m}" for m, n in moved)))
+            lines.append((k, len(part), mean_change(pairs), ", ".join(f"{n} {m}" for m, n in moved)))
     cpu = [pd.to_numeric(merged[n]).sum() for n in ("cpu_before", "cpu")]
-    return [
-        *("", "### Against other results, flight by flight", ""),
-        *table(("kind", "flights", "mean change", "outcomes that changed"), lines),
-        *("", f"Processor time of the diagnoses: {cpu[0]:.0f} s, now {cpu[1]:.0f} s."),
-    ]
+    heads = ("kind", "flights", "mean change", "outcomes that changed")
+    time = f"Processor time of the diagnoses: {cpu[0]:.0f} s, now {cpu[1]:.0f} s."
+    return f"\n### Against other results, flight by flight\n\n{table(heads, lines)}\n\n{time}"
 
 
-def ablation(rows: DataFrame) -> list[str]:
+def ablation(rows: DataFrame) -> str:
     """A row a rule."""
     heads = {"sentence": "what it does", "kinds": "written for", "acts": "acts on", "change": "mean change"}
     shown = rows.drop(columns=["moved", "commit"]).rename(columns=heads)
     details = [f"- `{r.rule}`: {r.moved}" for r in rows.itertuples() if r.moved]
-    return [*table(shown, shown.to_numpy()), "", *details]
+    return "\n".join([table(shown, shown.to_numpy()), "", *details])
 
 
-def quiet_records(rows: DataFrame) -> list[str]:
+def quiet_records(rows: DataFrame) -> str:
     """A line for each kind of record without effects: how many are accused of one, and how many are unexplained."""
     lines = []
     for name, part in rows.groupby("record", sort=False):
@@ -241,14 +243,14 @@ def quiet_records(rows: DataFrame) -> list[str]:
     return table(("nothing hidden, noise", "accused", "of", "unexplained"), lines)
 
 
-def ceiling(rows: DataFrame) -> list[str]:
+def ceiling(rows: DataFrame) -> str:
     """How many of each strength an oracle finds."""
     heads = ("kind", "the right effect alone, 5 %", "the right effect, as one of the catalogue, 3 %")
     of = rows.groupby("kind", sort=False)
     return table(heads, [(k, share(part.alone == "1"), share(part.found == "1")) for k, part in of])
 
 
-def array(rows: DataFrame) -> list[str]:
+def array(rows: DataFrame) -> str:
     """How many questions hold, of each recording, and claims without evidence."""
     questions = [*rows.question.unique()]
     lines = []
@@ -259,60 +261,44 @@ def array(rows: DataFrame) -> list[str]:
     return table(("recording", *questions, "all", "claims without evidence"), lines)
 
 
-HEAD = """\
+def page() -> str:
+    """The page, from the results that are committed."""
+
+    def section(name: str, title: str, tabulate: Callable[[DataFrame], str], words: str = "") -> str:
+        rows = read(Path(__file__).parent / f"{name}.csv")
+        return f"## {title}: commit {', '.join(sorted(rows.commit.unique()))}\n{words}\n{tabulate(rows)}\n"
+
+    seeds, held = (", ".join(map(str, x)) for x in (plan.REFERENCE, plan.HELD))
+    return f"""\
 # Benchmark of the diagnosis
 
 Flights come from the independent simulator; sheet and flight are written to files and diagnosed as a user would. Strengths are
 those for an observer who knows the noise (`oracle.py`); right, wrong and silent are defined in `score.py`. A seed has
-{flights} flights of {kinds} kinds of record (`records.py`). Seeds of the reference: {seeds}; held back for a final check: {held}. Cases,
-seeds and scoring were committed before anything was flown. Intervals are Wilson's at 90 %.
-The tables are made from `benchmarks/diagnosis/*.csv`.
+{sum(plan.COUNTS.values())} flights of {len(records.FIRST)} kinds of record (`records.py`). Seeds of the reference: {seeds};
+held back for a final check: {held}. Cases, seeds and scoring were committed before anything was flown. Intervals are Wilson's at 90 %.
+The tables are made from `benchmarks/diagnosis/*.csv`. `python -m examples.mimu.elsewhere RAW.bin.gz` prints the questions and answers
+about real sensors.
 
     python -m benchmarks.diagnosis --jobs 2 --against benchmarks/diagnosis/reference.csv
     python -m benchmarks.diagnosis --array --real FOLDER
     python -m benchmarks.diagnosis --ceiling
     python -m benchmarks.diagnosis --ablate --jobs 2
+
+{section("reference", "Reference", flights)}
+{section("ceiling", "What an oracle finds", ceiling, ORACLE)}
+{section("array", "Questions asked of real sensors", array)}
+{section("ablation", "Rules, each switched off", ablation, SWITCHED_OFF)}"""
+
+
+ORACLE = """
+An oracle that knows the noise and the true instrument tests the effect that is hidden, by the test of the diagnosis (`oracle.py`).
 """
 
-# File of results, title, table and what to know about it
-SECTIONS = (
-    ("reference", "Reference", flights, ""),
-    (
-        "ceiling",
-        "What an oracle finds",
-        ceiling,
-        """
-An oracle that knows the noise and the true instrument tests the effect that is hidden, by the test of the diagnosis (`oracle.py`).
-""",
-    ),
-    (
-        "array",
-        "Questions asked of real sensors",
-        array,
-        "\n`python -m examples.mimu.elsewhere RAW.bin.gz` prints the questions and answers.\n",
-    ),
-    (
-        "ablation",
-        "Rules, each switched off",
-        ablation,
-        """
+SWITCHED_OFF = """
 40 flights a rule (seed of its own): half of the kinds that it was written for, half of others. *Acts*: flights whose diagnosis differs
 without it (before 08f668d6: in which it did anything). *Worse* and *better*: outcomes without the rule; *other*: changes of equal score.
 Mean change: right 1, part and said 1/2, silent and unexplained 0, wrong -1.
-""",
-    ),
-)
-
-
-def page() -> str:
-    """The page, from the results that are committed."""
-    seeds, held_out = (", ".join(map(str, x)) for x in (plan.REFERENCE, plan.HELD))
-    count = sum(plan.COUNTS.values())
-    text = [HEAD.format(flights=count, kinds=len(records.FIRST), seeds=seeds, held=held_out)]
-    for name, title, tabulate, words in SECTIONS:
-        rows = read(Path(__file__).parent / f"{name}.csv")
-        text += [f"## {title}: commit {', '.join(sorted(rows.commit.unique()))}", words, *tabulate(rows), ""]
-    return "\n".join(text)
+"""
 
 
 def read(path: Path) -> DataFrame:

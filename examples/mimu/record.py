@@ -15,6 +15,7 @@ from __future__ import annotations
 import gzip
 import sys
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -58,6 +59,7 @@ def packets(raw: bytes) -> NDArray[np.int16]:
     return np.array(counts)
 
 
+@cache
 def read(path: Path) -> Raw:
     """A recording."""
     counts = packets(gzip.decompress(path.read_bytes()))
@@ -145,9 +147,15 @@ def parts(rate: Array) -> tuple[NDArray[np.bool_], int]:
 
 
 def sheet(
-    height: str | Sequence[str] = "2 mm", radius: str = f"{RADIUS} mm", lift: str = "5", arm: str = "0.5"
+    height: str | Sequence[str] = "2 mm",
+    radius: str = f"{RADIUS} mm",
+    lift: str = "5",
+    arm: str = "0.5",
+    turn: str = "3",
 ) -> str:
-    """The model.toml; ``lift`` deg and ``arm`` mm say how sure it is of beta_x and dR; a ``height`` for each or all."""
+    """The model.toml; ``lift`` deg, ``arm`` mm and ``turn`` deg say how sure it is of beta_x, dR and the other angles; a ``height`` for
+    each or all.
+    """
     heights = (height,) * len(PLACES) if isinstance(height, str) else height
     text = f"""\
 # Four of eight MEMS accelerometers on a board, along the tangents of the circle through them: a gradiometer
@@ -173,7 +181,7 @@ sign = {sign}
 output = "G_out"
 """
     sigmas = {"dR": (0, arm, "mm"), "beta_x": (0, lift, "deg")}
-    sigmas |= dict.fromkeys(("beta_z", "vartheta_x", "vartheta_y", "vartheta_z"), (0, 3, "deg"))
+    sigmas |= dict.fromkeys(("beta_z", "vartheta_x", "vartheta_y", "vartheta_z"), (0, turn, "deg"))
     sigmas |= {"K0": (0, 60, "mg"), "K1": (1, 0.03, "A/g")}
     sigmas |= {f"K{n}": (0, 2, "mg/g^2") for n in (2, 4, 5, 6, 7, 8)}
     lines = [f'{n} = {{ value = {v}, sigma = {s}, unit = "{u}" }}' for n, (v, s, u) in sigmas.items()]

@@ -185,7 +185,25 @@ def simulate(
 @click.option("--output", type=PLACE, default=Path("ragg-demo"), show_default=True, help="Folder to make.")
 def demo(output: Path) -> None:
     """Find a hidden effect in a simulated flight, add it."""
-    run_demo(output)
+    if output.exists():
+        raise UserError("the folder exists already", where=output, remedy="choose another with --output")
+    output.mkdir(parents=True)
+    model, flight, report, diagnosis, added = (
+        str(output / name)
+        for name in ("model", "flight.parquet", "report.html", "diagnosis.html", "added.json")
+    )
+    make_flight(flight)
+    _run("new", model)
+    _run("compare", model, flight)
+    _run("diagnose", model, flight, "--report", diagnosis)
+    _run("add", model, HIDDEN[0], flight, "--report", report, "--json", added)
+    _run("history", model)
+    sections = describe.say_plainly(
+        *_describe_recovery(json.loads(Path(added).read_text("utf-8"))),
+        f"Reports: {diagnosis}  {report}",
+        f"In a browser: ragg studio {model} {flight}",
+    )
+    click.echo(f"\n{render_text(sections)}")
 
 
 @click.command(cls=Command, report=True)
@@ -295,7 +313,7 @@ def studio(model_dir: Path | None, flights: Sequence[Path], port: int, no_browse
 HIDDEN = ("thermal-scale", "dK1_dT", (0.0, 0.0, 6e-8, 0.0))
 
 
-def make_flight(path: Path) -> None:
+def make_flight(path: str) -> None:
     """Write the flight: twelve minutes at 1 g in turbulence, with a temperature-dependent scale factor in A3."""
     effect, name, values = HIDDEN
     hidden = f"{effect}:{name}={'/'.join(f'{x:g}' for x in values)}"
@@ -303,30 +321,6 @@ def make_flight(path: Path) -> None:
         api.example(), [hidden], seed=2026, instrument_seed=2026, duration=720.0
     )
     io.write_flight(flight, path)
-
-
-def run_demo(output: Path, flight: Path | None = None) -> None:
-    """Run the commands of the loop in ``output``, which must not exist, on ``flight`` (else one is made)."""
-    if output.exists():
-        raise UserError("the folder exists already", where=output, remedy="choose another with --output")
-    output.mkdir(parents=True)
-    if flight is None:
-        flight = output / "flight.parquet"
-        make_flight(flight)
-    model, report, diagnosis, added = (
-        str(output / name) for name in ("model", "report.html", "diagnosis.html", "added.json")
-    )
-    _run("new", model)
-    _run("compare", model, str(flight))
-    _run("diagnose", model, str(flight), "--report", diagnosis)
-    _run("add", model, HIDDEN[0], str(flight), "--report", report, "--json", added)
-    _run("history", model)
-    sections = describe.say_plainly(
-        *_describe_recovery(json.loads(Path(added).read_text("utf-8"))),
-        f"Reports: {diagnosis}  {report}",
-        f"In a browser: ragg studio {model} {flight}",
-    )
-    click.echo(f"\n{render_text(sections)}")
 
 
 def _run(*words: str) -> None:

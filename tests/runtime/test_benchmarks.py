@@ -17,7 +17,7 @@ from benchmarks.diagnosis import __main__ as command
 from benchmarks.diagnosis import ablation, fly, oracle, plan, records, score
 from benchmarks.diagnosis.oracle import NEVER, Oracle
 from benchmarks.diagnosis.plan import Spec, model_text
-from benchmarks.evaluation import instrument_and_motion, program, write_function
+from benchmarks.evaluation import motion_and_instrument, program, write_function
 from generated import folded
 from ragg_runtime.estimation.observation import observe
 from ragg_runtime.estimation.regressors import group_by_effect, linearise, make_point
@@ -73,7 +73,7 @@ def test_the_oracle_finds_what_is_in_the_recorded_motion() -> None:
 
 def test_what_is_outside_keeps_its_strength_beyond_the_catalogue() -> None:
     w, plain, o, _ = prepared("white")
-    term = fly.Outside.of("resonance at 3 Hz", o, plain, w.scenario)
+    term = fly.make_outside("resonance at 3 Hz", o, plain, w.scenario)
     assert o.beyond_all(term.change) == pytest.approx(10.0, rel=1e-6)
     assert term.with_mimics >= 10.0
 
@@ -89,9 +89,9 @@ def test_the_sheet_in_the_file_is_that_of_the_flight(spec: Spec) -> None:
 
 def line(kind: str, verdict: str, found: list[str], hidden: list[str], **more: Any) -> dict[str, Any]:
     twins = {"lag": ["time-offset"]}
-    ranking = [{"effect": e, "log10_p": -9.0, "twins": twins.get(e, [])} for e in found]
-    x = {"id": "1/x", "kind": kind, "record": "white", "verdict": verdict, "found": found, "reason": None}
-    return x | {"ranking": ranking, "hidden": [{"effect": e} for e in hidden], "tested": 40} | more
+    ranking = [{"effect": e, "log10_p": -9.0, "indistinguishable_from": twins.get(e, [])} for e in found]
+    x = {"id": "1/x", "kind": kind, "record": "white", "verdict": verdict, "found": found, "remark": None}
+    return x | {"ranking": ranking, "hidden": [{"effect": e} for e in hidden], "tests": 40} | more
 
 
 @pytest.mark.parametrize(
@@ -100,11 +100,11 @@ def line(kind: str, verdict: str, found: list[str], hidden: list[str], **more: A
         (line("ten", "missing-effect", ["lag"], ["lag"]), "right"),
         (line("ten", "partly-explained", ["lag", "arm-sag"], ["lag"]), "wrong"),
         (line("ten", "adequate", [], ["lag"]), "silent"),
-        (line("ten", "unexplained", [], ["lag"], reason="lines"), "unexplained"),
+        (line("ten", "unexplained", [], ["lag"], remark="lines"), "unexplained"),
         (line("pair", "missing-effect", ["lag"], ["lag", "arm-sag"]), "part"),
         (line("pair", "missing-effect", ["lag", "arm-sag"], ["arm-sag", "time-offset"]), "right"),
         (line("quiet", "adequate", [], []), "right"),
-        (line("quiet", "refused", [], [], reason="units"), "said"),
+        (line("quiet", "refused", [], [], remark="units"), "said"),
         (line("quiet", "missing-effect", ["lag"], []), "wrong"),
         (line("quiet", "adequate", [], [], record="shuffled"), "wrong"),
         (line("outside", "unexplained", [], [], outside=["omega_z", 9.0]), "right"),
@@ -144,14 +144,14 @@ def test_the_plan_is_large_enough_and_seeds_have_nothing_in_common() -> None:
 
 
 def test_the_rival_is_given_the_same_model() -> None:
-    t, x, p = instrument_and_motion(5000)
-    true, phi = folded.output(t, x, p), 2 * np.pi * p[1] * t
+    (t, *x), p = motion_and_instrument(5000)
+    true, phi = folded.output(t, np.array(x), p), 2 * np.pi * p[1] * t
     values = write_function(program(p), np)(np.cos(phi), np.sin(phi), *x)
     np.testing.assert_allclose(values, true, rtol=0, atol=1e-9 * np.max(np.abs(true)))
 
 
 def test_what_is_timed_is_what_fifty_digits_say() -> None:
-    _, _, p = instrument_and_motion(40)
+    _, p = motion_and_instrument(40)
     ours = {evaluation.OURS: evaluation.contenders(p)[evaluation.OURS]}
     assert evaluation.errors(p, ours)[evaluation.OURS] < 2e-7
 
