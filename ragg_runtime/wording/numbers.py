@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import unicodedata
+from collections import Counter
 from collections.abc import Sequence
 
 from ragg_runtime.base.series_name import (
@@ -165,19 +166,38 @@ def unit(text: str) -> str:
 
 
 def unit_of_term(text: str) -> str:
-    """A unit such as ``V/(m/s^2*m/s^2*K)`` with equal factors gathered: V/((m/s²)²·K)."""
+    """A unit such as ``V/(m/s^2*((m/s^2)^2)*K)`` with equal factors gathered: V/((m/s²)³·K)."""
     match = re.fullmatch(r"V/\((.*)\)", text)
     if match is None:
         return unit(text)
-    factors = match[1].split("*")
-    parts = []
-    for f in dict.fromkeys(factors):
-        count, symbol = factors.count(f), unit(f)
-        if "/" in symbol and len(factors) > 1:
-            symbol = f"({symbol})"
-        parts.append(symbol + (str(count).translate(_SUPERSCRIPTS) if count > 1 else ""))
-    text = "·".join(parts)
-    return f"V/{text}" if len(parts) == 1 and ("/" not in parts[0] or parts[0][0] == "(") else f"V/({text})"
+    factors, parts = _count_factors(match[1]), []
+    for factor, n in factors.items():
+        symbol, several = unit(factor), n > 1 or len(factors) > 1
+        power = str(n).translate(_SUPERSCRIPTS) if n > 1 else ""
+        parts.append(f"({symbol}){power}" if "/" in symbol and several else f"{symbol}{power}")
+    product = "·".join(parts)
+    if not parts:
+        return "V"
+    bare = len(parts) == 1 and ("/" not in product or product[0] == "(")
+    return f"V/{product}" if bare else f"V/({product})"
+
+
+def _count_factors(text: str) -> Counter[str]:
+    """The factors of a product of units, with how often each is in it: of products and powers in parentheses, those of what is inside."""
+    count, depth, parts = Counter[str](), 0, [""]
+    for c in text:
+        depth += (c == "(") - (c == ")")
+        if c == "*" and not depth:
+            parts.append("")
+        else:
+            parts[-1] += c
+    for part in parts:
+        if inner := re.fullmatch(r"\((.*)\)(?:\^(\d+))?", part):
+            for factor, n in _count_factors(inner[1]).items():
+                count[factor] += n * int(inner[2] or 1)
+        elif part != "1":
+            count[part] += 1
+    return count
 
 
 def with_unit(text: str, unit_: str) -> str:
