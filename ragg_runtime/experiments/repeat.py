@@ -10,12 +10,12 @@ meets the four sigmas of the simplified model and the order of the angular accel
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import CubicHermiteSpline
 
 from generated import analytical, simplified
 from ragg_runtime import experiments as paper
@@ -347,27 +347,20 @@ def measure_moments(run: Simulation) -> dict[str, float]:
     return entries
 
 
-@dataclass(frozen=True)
 class SampledSignal:
-    """A signal known at the instants n/frequency alone, with its derivative there."""
+    """A signal (N,) of known values and slopes at the instants n / :data:`SAMPLED`, where alone it is asked for."""
 
-    frequency: float
-    values: Array
-    slopes: Array
-
-    def _find(self, time: Array, shift: float) -> NDArray[np.intp]:
-        n = np.rint(time * self.frequency).astype(np.intp)
-        if shift != 0 or np.any(np.abs(time * self.frequency - n) > 1e-6):
-            raise ValueError("a sampled signal is known at its own instants only")
-        return n
+    def __init__(self, values: Array, slopes: Array) -> None:
+        self._value = CubicHermiteSpline(np.arange(len(values)) / SAMPLED, values, slopes)
+        self._rate = self._value.derivative()
 
     def value(self, time: Array, shift: float = 0.0) -> Array:
-        """Value at ``time``, (N,)."""
-        return self.values[self._find(time, shift)]
+        """Value at ``time - shift``, (N,)."""
+        return np.asarray(self._value(time - shift))
 
     def rate(self, time: Array, shift: float = 0.0) -> Array:
-        """Derivative at ``time``, (N,), 1/s."""
-        return self.slopes[self._find(time, shift)]
+        """Derivative at ``time - shift``, (N,), 1/s."""
+        return np.asarray(self._rate(time - shift))
 
 
 def draw_motion(rng: np.random.Generator, experiment: int) -> MotionSignals:
@@ -378,7 +371,7 @@ def draw_motion(rng: np.random.Generator, experiment: int) -> MotionSignals:
     def draw(mean: float, std: float, unit: float) -> SampledSignal:
         """Independent Gaussian samples; derivative (v[n+1] - v[n-1]) / (2 dt)."""
         v = mean * unit + std * unit * rng.standard_normal(size + 2)
-        return SampledSignal(SAMPLED, v[1:-1], (v[2:] - v[:-2]) * SAMPLED / 2)
+        return SampledSignal(v[1:-1], (v[2:] - v[:-2]) * SAMPLED / 2)
 
     a_z = draw(a_mean, a_std, milli_g)
     a_x, a_y = (draw(paper.HORIZONTAL * a_mean, paper.HORIZONTAL * a_std, milli_g) for _ in range(2))

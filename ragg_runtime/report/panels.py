@@ -110,12 +110,6 @@ def estimate_spectrum(
     return _bin_frequencies(f[2:], psd[2:], points)
 
 
-def pass_band(x: Array, rate: float, low: float, high: float) -> Array:
-    """(N,): a series, zero where it has no value, between two frequencies (Hz)."""
-    f = np.fft.rfftfreq(len(x), 1.0 / rate)
-    return np.asarray(np.fft.irfft(np.where((f >= low) & (f <= high), np.fft.rfft(x), 0.0), len(x)))
-
-
 def _bin_frequencies(f: Array, psd: Array, points: int) -> AmplitudeSpectrum:
     edges = np.geomspace(f[0] * 0.999, f[-1] * 1.001, points + 1)
     which = np.digitize(f, edges)

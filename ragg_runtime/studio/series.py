@@ -16,7 +16,6 @@ from ragg_runtime.base.progress import one_thread
 from ragg_runtime.compensation.calibrate import information, invert_root
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.scores import demodulate_residual
-from ragg_runtime.estimation.whitening import PreparedFlight
 from ragg_runtime.identification import omnibus
 from ragg_runtime.identification.dictionary import Term, list_harmonics
 from ragg_runtime.identification.omnibus import Scores
@@ -162,32 +161,19 @@ def score_terms(f: Fitted, flight: int, projected: Sequence[int] = ()) -> Heat:
     )
 
 
-def compute_term(prepared: PreparedFlight, harmonic: str, product: str, coefficient: float) -> Array:
-    """(N,) V: a generic term over a whole flight, with this coefficient."""
-    r = prepared.observation.record
-    channels = () if product == "1" else tuple(product.split("*"))
-    x = coefficient * omnibus.make_dictionary(prepared).series(Term(harmonic, channels), r)
-    return np.asarray(np.where(r.valid, x, 0.0))
-
-
 # --- series over time ----------------------------------------------------------------------------------
 
 
 def draw_series(s: State, a: Asked) -> bytes:
-    """The window of a series that is asked for."""
+    """The window of a series that is asked for; before a flight is compared, of its output as it was read."""
     if s.compared is None and a.what == "measured" and 0 <= a.flight < len(s.flights):
-        series = _read_unexamined(s, a.flight)
+        x = s.flights[a.flight]
+        if not x.outputs or not len(x):
+            raise UserError("the flight has no output", where=x.name)
+        series = sample(0.0, 1.0 / x.rate, next(iter(x.outputs.values())))
     else:
         series = View(s, a).sample()
     return series.window(a.first, a.last, a.points)
-
-
-def _read_unexamined(s: State, flight: int) -> Sampled:
-    """The output of a flight as it was read, before it is compared."""
-    x = s.flights[flight]
-    if not x.outputs or not len(x):
-        raise UserError("the flight has no output", where=x.name)
-    return sample(0.0, 1.0 / x.rate, next(iter(x.outputs.values())))
 
 
 class View:
@@ -312,7 +298,9 @@ class View:
         c = float(h.coefficient[h.harmonics.index(harmonic), h.products.index(product)])
         if not np.isfinite(c):
             raise UserError("the model already has this term", found=f"{harmonic} x {product}")
-        return compute_term(self.prepared, harmonic, product, c)
+        channels = () if product == "1" else tuple(product.split("*"))
+        x = omnibus.make_dictionary(self.prepared).series(Term(harmonic, channels), self.record)
+        return np.asarray(np.where(self.record.valid, c * x, 0.0))
 
     def _pass_band(self, name: str) -> Array:
         try:
@@ -320,7 +308,9 @@ class View:
         except ValueError:
             expected = "band:0.2:0.3"
             raise UserError("a band is needed", found=repr(name[:40]), expected=expected) from None
-        return panels.pass_band(self.residual, self.record.rate, low, high)
+        f = np.fft.rfftfreq(len(self.residual), 1.0 / self.record.rate)
+        passed = np.where((f >= low) & (f <= high), np.fft.rfft(self.residual), 0.0)
+        return np.asarray(np.fft.irfft(passed, len(self.residual)))
 
     def rows(self) -> slice:
         """The samples of the window; UserError if these are too few for a spectrum."""
