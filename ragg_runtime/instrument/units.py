@@ -79,6 +79,7 @@ class Units:
         registry.define(f"standard_g = {self.g0!r} * meter / second ** 2 = g")
         registry.define("kilogram_mass = 1000 * gram = kg")
         registry.define("eotvos = 1e-9 / second ** 2 = Eo = Eotvos")
+        registry.define("gauss_in_si = 1e-4 * tesla = G = gauss")  # pint's own is of CGS
         return registry
 
     def parse(self, unit: str, where: str | None = None) -> Any:
@@ -276,6 +277,7 @@ _NAMED = {
         "mV": ("mVolt", "mVolts"),
         "g": ("g's", "G's", "gs", "gee", "gees"),
         "mbar": ("mb",),
+        "gauss": ("Gs",),
         "1": ("unitless",),
     }.items()
     for spelling in spellings

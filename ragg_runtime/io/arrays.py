@@ -47,7 +47,14 @@ Attributes = Mapping[str, Any]
 # arrays (or pairs of an array and its attributes), texts, and trees, by name: units is a tree of texts, line names the line
 Tree = Mapping[str, Any]
 
-_TITLES = ("columns", "names", "fields", "colheaders", "labels", "channels")
+# how lists of names of columns, and of their units, are called
+_TITLES = re.compile(
+    r"(?:column|channel)?_?(?:columns|names|fields|colheaders|labels?|channels)$", re.IGNORECASE
+)
+_UNITS = re.compile(r"(?:column|channel)?_?units?(?:_string)?$", re.IGNORECASE)
+
+# how numbers were packed: in the words of CF and, of whole numbers, in those of others
+_FACTORS, _OFFSETS = ("scale_factor", "scale", "slope", "conversion"), ("add_offset", "offset", "intercept")
 
 # what NetCDF writes where nothing was written, by type (netcdf.h: NC_FILL_FLOAT ...)
 _DEFAULT_FILL = {"f4": 2.0**123 * 0.9375, "f8": 2.0**123 * 0.9375, "i4": -2147483647, "i2": -32767}
@@ -63,7 +70,7 @@ def make_tables(tree: Tree, place: str = "") -> list[DataTable]:
     A branch with as many rows, and no name in common, is a part of the record around it, unless both have a clock, or the record has all
     of the motion: columns besides it may have no units.
     """
-    arrays, branches = [], {}
+    arrays, branches = list[tuple[Any, ...]](), dict[str, Any]()
     for name, item in tree.items():
         x = read_array(item) if isinstance(item, list | np.ndarray) else None
         parts = x.ravel().tolist() if x is not None and x.dtype == object else []
@@ -72,10 +79,12 @@ def make_tables(tree: Tree, place: str = "") -> list[DataTable]:
         elif parts and all(isinstance(p, Mapping) for p in parts):  # an array of structures
             single = len(parts) > 1 and not any(np.ndim(v) for p in parts for v in p.values())
             rows = {n: [p.get(n) for p in parts] for n in parts[0]}
-            branches |= {name: rows} if single else {f"{name}_{k}": p for k, p in enumerate(parts, 1)}
-        elif (
-            x is not None and parts and x.ndim == 2 and all(isinstance(t, str) for t in x[0])
-        ):  # cells below their titles
+            if all(rows.get("label") or [""]) and "values" in rows:  # of Simulink
+                arrays += zip(rows["label"], rows["values"], strict=True)
+            else:
+                branches |= {name: rows} if single else {f"{name}_{k}": p for k, p in enumerate(parts, 1)}
+        elif x is not None and parts and x.ndim == 2 and all(isinstance(t, str) for t in x[0]):
+            # cells below their titles
             branches[name] = dict(zip(x[0], x[1:].T, strict=True))
         elif not isinstance(item, str):
             arrays.append((name, *item) if isinstance(item, tuple) else (name, item))
@@ -139,8 +148,9 @@ def make_table(
     sizes = [(read_heading(n)[0], max(x.shape)) for n, x, _ in numbers if _is_narrow(x.shape)]
     common = Counter(size for _, size in sizes if size > 1).most_common(1)
     length = next((size for n, size in sizes if n == "time" and size > 1), common[0][0] if common else 1)
-    lists = {n: x for n, x, _ in arrays if n.casefold() in (*_TITLES, "units") and x.dtype.kind in "OSUT"}
-    columns, other = [], []
+    words = [(n, x) for n, x, _ in arrays if x.dtype.kind in "OSUT"]
+    lists = {n: x for n, x in words if _TITLES.search(n) or _UNITS.search(n)}
+    columns, other, packed = [], [], dict[str, list[str]]()
     for name, x, attributes in arrays:
         fits = _is_narrow(x.shape) and length in x.shape
         instants = ""
@@ -152,13 +162,17 @@ def make_table(
             other += [f"{name!r} ({why})"] if name not in lists else []
             continue
         title, unit = read_heading(name)
+        told = sorted(n for n in attributes if n.casefold() in (*_FACTORS[1:], *_OFFSETS[1:]))
+        if any(_read_attribute(attributes[n]).tolist() not in ([0], [1]) for n in told):
+            done = "applied" if x.dtype.kind in "iu" else "not applied, these are no whole numbers"
+            packed.setdefault(f"attributes {', '.join(told)}: {done}", []).append(title)
         logical = x.dtype == np.bool_ or attributes.get("MATLAB_class") == b"logical"
-        units_here = (_read_text(v) for k, v in attributes.items() if k.casefold() in ("units", "unit"))
+        units_here = (_read_text(v) for k, v in attributes.items() if _UNITS.fullmatch(k))
         own_unit = next(filter(None, units_here), unit or "1" * logical)
         for label, unit, part in _spread(title, values, length, {**lists, **attributes}):
             unit_of = instants or units.get(label) or units.get(name) or units.get(title) or unit or own_unit
             columns.append(DataColumn(label, unit_of.strip(), part))
-    notes = list(about.pop("notes", ()))
+    notes = [*about.pop("notes", ()), *(f"{', '.join(n)}: {words}" for words, n in packed.items())]
     if other:
         shown = ", ".join(other[:6]) + (" ..." if len(other) > 6 else "")
         notes.append(f"skipped, not of the {length} rows of the table: {one_line(shown)}")
@@ -194,13 +208,13 @@ def _spread(
     width = values.shape[1]
     axes = "xyz" if width == 3 and f"{name}_x" in SI_UNITS else range(1, width + 1)
     lists = {
-        k.casefold(): [write_cell(t) for t in np.ravel(v)]
+        k.removeprefix(name): [write_cell(t) for t in np.ravel(v)]  # IMU_label is that of IMU
         for k, v in attributes.items()
         if np.ndim(v) and np.size(v) == width
     }
     plain = [name if width == 1 else f"{name}_{k}" for k in axes]
-    titles = [read_heading(t) for t in next((lists[k] for k in _TITLES if k in lists), plain)]
-    units = next((lists[k] for k in ("units", "unit") if k in lists), [""] * width)
+    titles = [read_heading(t) for t in next((v for k, v in lists.items() if _TITLES.fullmatch(k)), plain)]
+    units = next((v for k, v in lists.items() if _UNITS.fullmatch(k)), [""] * width)
     return [(n, u or own_unit, x) for (n, own_unit), u, x in zip(titles, units, values.T, strict=True)]
 
 
@@ -225,21 +239,32 @@ def decode_values(values: NDArray[Any], attributes: Attributes) -> NDArray[Any] 
         flags = np.atleast_1d(attributes.get("flag_values", np.arange(len(meanings)))).tolist()
         texts = dict(zip(flags, meanings, strict=False))
         return np.array([texts.get(int(v), str(v)) for v in values], dtype=object)
-    numbers = {n: x for n, v in attributes.items() if (x := np.ravel(v)).dtype.kind in "fiu" and x.size}
-    nothing = [v for n in ("_FillValue", "missing_value") for v in numbers.get(n, ()) if np.isfinite(v)]
+    numbers = {n.casefold(): x for n, v in attributes.items() if (x := _read_attribute(v)).size}
+    nothing = [v for n in ("_fillvalue", "missing_value") for v in numbers.get(n, ()) if np.isfinite(v)]
     if (fill := _DEFAULT_FILL.get(values.dtype.str[1:])) is not None and "DIMENSION_LIST" in attributes:
         nothing.append(fill)
     missing = np.isin(values, np.array(nothing).astype(values.dtype))
-    packed = "scale_factor" in numbers or "add_offset" in numbers
+    factor, offset = (
+        next((numbers[n][0] for n in names if n in numbers and (kind in "iu" or n == names[0])), default)
+        for names, default in ((_FACTORS, 1.0), (_OFFSETS, 0.0))
+    )
+    packed = (factor, offset) != (1.0, 0.0)
     result: NDArray[Any] = values.astype(np.float64, copy=False)
-    if packed:
-        result = result * numbers.get("scale_factor", [1.0])[0] + numbers.get("add_offset", [0.0])[0]
+    result = result * factor + offset if packed else result
     for name in (n for n in ("valid_range", "valid_min", "valid_max") if n in numbers):
         # of packed whole numbers the range is one of whole numbers, or of what they encode (NUG, appendix A)
         encoded = packed and kind in "iu" and numbers[name].dtype.kind == "f"
         x, limits = result if encoded else values, numbers[name]
         missing |= (x < limits[0]) & (name != "valid_max") | (x > limits[-1]) & (name != "valid_min")
     return np.where(missing, np.nan, result) if missing.any() else result
+
+
+def _read_attribute(value: Any) -> NDArray[Any]:
+    """The numbers of an attribute, even where they are written as text; none where it holds anything else."""
+    x = np.ravel(value)
+    with contextlib.suppress(ValueError, TypeError):
+        x = x.astype(np.float64) if x.dtype.kind in "SUO" else x
+    return x if x.dtype.kind in "fiu" else np.empty(0)
 
 
 def count_seconds(x: NDArray[Any]) -> tuple[Array, str]:
@@ -380,7 +405,7 @@ def convert_arrow(column: pa.ChunkedArray) -> NDArray[Any]:
     kind = column.type.value_type if pa.types.is_dictionary(column.type) else column.type
     if pa.types.is_string(kind) or pa.types.is_large_string(kind) or pa.types.is_binary(kind):
         return np.array(column.to_pylist(), dtype=object)
-    if pa.types.is_nested(kind) or pa.types.is_time(kind):
+    if pa.types.is_nested(kind) or pa.types.is_time(kind) or pa.types.is_date(kind):
         return read_array(column.to_pylist())
     if pa.types.is_temporal(kind):
         return np.asarray(column.to_numpy())
@@ -474,8 +499,8 @@ def _is_column(data: h5py.Dataset) -> bool:
         return False
     if kind == "O" and h5py.check_string_dtype(data.dtype) is None:
         return False  # references and sequences
-    if _DIMENSION in write_cell(data.attrs.get("NAME")):
-        return False
+    if _DIMENSION in write_cell(data.attrs.get("NAME")) or "MATLAB_object_decode" in data.attrs:
+        return False  # nor tables and other objects of MATLAB
     return not data.shape or _is_narrow(data.shape) or data.dtype.names is not None
 
 

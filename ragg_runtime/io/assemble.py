@@ -78,7 +78,7 @@ def make_flight(
     kept = tuple(c for c in table.columns if is_column(c.name) and c.name not in leave)
     table = replace(table, columns=kept, notes=(*table.notes, *_pass_over(table.names)))
     si, si_units = _convert(table, g0, accelerometers)
-    doubled = [*_leave_out_doubled(si), *_leave_out_misplaced(si)]
+    doubled = [*_leave_out_doubled(si, table), *_leave_out_misplaced(si)]
     grid = make_grid(si.pop("time"), table.place)
     notes = [*table.notes, *doubled, *_leave_out_impossible(si, si_units), *grid.notes]
     placed = {c: _place(si.pop(c), grid) for c in [*si]}  # of a day at 100 Hz each is 70 MB
@@ -181,13 +181,17 @@ def _convert(
     return columns, si_units
 
 
-def _leave_out_doubled(si: dict[str, Array]) -> list[str]:
-    """Leave out rows that are in the file once more, to the last digit: one was appended to another with an overlap."""
-    time = si["time"]
-    if np.all(np.diff(time) > 0):
+def _leave_out_doubled(si: dict[str, Array], table: DataTable) -> list[str]:
+    """Leave out rows of zeros, which recorders reserve ahead or write until they are ready, and rows that are in the file once more, to
+    the last digit: one was appended to another with an overlap.
+    """
+    if np.all(np.diff(si["time"]) > 0):
         return []
+    empty = np.all([(c.values == 0.0) | np.isnan(c.values) for c in table.columns], axis=0)
+    notes = _leave_out(si, empty, "of zeros", f"is row {np.argmax(empty) + 1}")
     twice = pd.DataFrame(si).duplicated().to_numpy()
-    return _leave_out(si, twice, "that the file has twice", f"at t = {time[np.argmax(twice)]:.10g} s")
+    place = f"at t = {si['time'][np.argmax(twice)]:.10g} s"
+    return [*notes, *_leave_out(si, twice, "that the file has twice", place)]
 
 
 def _leave_out_misplaced(si: dict[str, Array]) -> list[str]:

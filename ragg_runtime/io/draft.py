@@ -194,7 +194,7 @@ def _draft_time(
         fits = [c for c in numbers if c.name == table.index and np.any(c.values % 1 != 0)]
     if not fits:
         questions.append("[time] column: which column is time?")
-        remark = "no column has a usual name for time"
+        remark = 'no column has a usual name for time; or, of even samples, only: rate = "16 Hz"'
         return [f'column = "{UNKNOWN}"  # {remark}', f'unit = "{UNKNOWN}"'], ()
     c = min(fits, key=lambda c: (c.name != "time", np.mean(np.diff(c.values) > 0) < 0.5, not c.unit))
     unit, remark = _find_unit(replace(c, unit=c.unit.split(" since ")[0]), "time", questions, "[time]")

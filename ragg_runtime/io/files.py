@@ -57,19 +57,13 @@ def write_csv(path: Path, table: pa.Table) -> None:
 
 def write_netcdf(path: Path, table: pa.Table) -> None:
     """Write columns as variables along ``time``, float64 or texts."""
-    import h5netcdf  # slow to import, and only this format needs it
-    import h5py
+    import xarray  # slow to import, and only this format needs it
 
-    whole = io.BytesIO()  # where a disc is full HDF5 crashes as the process ends
-    with h5netcdf.File(whole, "w") as file:
-        file.dimensions = {"time": len(table)}
-        for field, values in zip(table.schema, map(convert_arrow, table.columns), strict=True):
-            is_text = values.dtype == object
-            missing = None if is_text or field.name == "time" else np.nan
-            kind = h5py.string_dtype() if is_text else np.float64
-            variable = file.create_variable(field.name, ("time",), kind, values, fillvalue=missing)
-            variable.attrs.update({"units": unit} if (unit := read_unit(field)) else {})
-    path.write_bytes(whole.getbuffer())
+    units_of = [{"units": unit} if (unit := read_unit(f)) else {} for f in table.schema]
+    columns = zip(table.column_names, map(convert_arrow, table.columns), units_of, strict=True)
+    data = xarray.Dataset({name: ("time", values, unit) for name, values, unit in columns})
+    # in memory first: where a disc is full HDF5 crashes as the process ends
+    path.write_bytes(data.to_netcdf(engine="h5netcdf"))
 
 
 def write_parquet(path: Path, table: pa.Table) -> None:
@@ -90,7 +84,7 @@ class Format:
 
 FORMATS = (
     Format("csv", (".csv", ".csv.gz"), read_csv, write_csv),
-    Format("text", (".txt", ".dat", ".asc", ".tsv", ".log", ".lvm"), read_csv),
+    Format("text", (".txt", ".dat", ".asc", ".tsv", ".log", ".lvm", ".xyz"), read_csv),
     Format("parquet", (".parquet", ".pq"), read_parquet, write_parquet),
     Format("netcdf", (".nc", ".nc4"), read_netcdf, write_netcdf),
     Format("hdf5", (".h5", ".hdf5", ".hdf", ".he5"), read_hdf5),
@@ -100,6 +94,7 @@ FORMATS = (
 
 # file name endings and the format that they stand for
 ENDINGS: Mapping[str, Format] = {e: f for f in FORMATS for e in f.endings}
+ENDINGS = {**ENDINGS, **{f"{e}.gz": f for e, f in ENDINGS.items() if f.name == "text"}}
 
 
 def find_ending(name: str) -> str | None:
@@ -116,8 +111,8 @@ def find_format(path: Path, *, write: bool = False) -> Format:
         "unknown file ending" if kind is None else f"{kind.name} files are read, not written",
         where=path,
         found=path.suffix or "no ending",
-        expected=", ".join(e for e, f in ENDINGS.items() if f.write is not None or not write),
-        remedy="choose one of these formats",
+        expected=", ".join(e for f in FORMATS if f.write is not None or not write for e in f.endings),
+        remedy="choose one of these formats; a table that is plain text may be called .txt",
     )
 
 

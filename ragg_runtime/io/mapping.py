@@ -26,14 +26,16 @@ from ragg_runtime.base.errors import (
     count,
     did_you_mean,
     is_column,
+    one_line,
     read_name,
 )
 from ragg_runtime.base.files import read_text
 from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
-from ragg_runtime.instrument.units import units
+from ragg_runtime.instrument.units import read_quantity, read_si, units
 from ragg_runtime.io.arrays import count_seconds
 from ragg_runtime.io.instants import WAYS, are_packed, parse_order, read_epoch, read_stamps
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
+from ragg_runtime.io.sampling import SHARED
 from ragg_runtime.io.tables import (
     INDEX,
     MISSING,
@@ -50,7 +52,7 @@ UNKNOWN = "?"  # what ragg map writes where the answer is not in the file
 
 _KEYS: Mapping[str, tuple[str, ...]] = {
     "file": ("line", "lines", "part", "null", "format"),
-    "time": ("column", "format", "unit", "origin", "null"),
+    "time": ("column", "format", "unit", "rate", "origin", "null"),
     "axes": ("x", "y", "z"),
     "columns": ("column", "unit", "sign", "scale", "offset", "null"),
 }
@@ -76,6 +78,7 @@ class TimeEntry:
     columns: tuple[str, ...]
     format: str | None = None  # None: recognised
     unit: str = ""
+    rate: float = 1.0  # counts of the column, or rows, in a second
     origin: datetime | None = None  # when plain seconds were 0
     null: Null = ()
 
@@ -87,9 +90,7 @@ class Mapped:
     path: Path
     time: TimeEntry
     channels: Mapping[str, Entry]
-    axes: tuple[tuple[int, float], ...] | None = (
-        None  # for x, y, z: the recorder's axis (0, 1, 2) and its sign
-    )
+    axes: tuple[tuple[int, float], ...] | None = None  # for x, y, z: the recorder's axis, its sign
     line: str | None = None
     lines: tuple[str, ...] | None = None
     part: str | None = None
@@ -133,7 +134,7 @@ def parse_mapping(text: str, path: Path) -> Mapped:
     null = _read_null(data, str(path)) + _read_null(file, place)
     if "time" not in data or "time" in columns:
         what = "time has a table of its own" if "time" in columns else "[time] is missing"
-        raise UserError(what, where=path, expected='[time] column = "...", unit = "s"')
+        raise UserError(what, where=path, expected='[time] column = "...", unit = "s"; or rate = "16 Hz"')
     format_ = {"format": "seconds", **data, **file, **tables["time"]}["format"]
     return Mapped(
         path=path,
@@ -205,7 +206,10 @@ def _parse_time(raw: Mapping[str, Any], form: Any, null: Null, where: str) -> Ti
         formats = "seconds, " + ", ".join(f"{n} ({example})" for n, (_, example) in WAYS.items())
         near = did_you_mean(written, ("seconds", *WAYS))
         raise _refuse("no such format of time", where, written, formats, near)
-    needed = WAYS[written][0] if written in WAYS else 1
+    rate = raw.get("rate")
+    if rate is not None and ("unit" in raw or written != "seconds"):
+        raise _refuse("rate is of a column that counts, or of the rows", where, rate, "no unit, no format")
+    needed = WAYS[written][0] if written in WAYS else int(rate is None or columns is not None)
     fits = len(names) == needed or (ordered and len(names) == 2)
     if not fits or not all(isinstance(n, str) and n for n in names):
         how, example = ("two columns", '["DATE", "CLOCK"]') if needed == 2 else ("one column", '"..."')
@@ -215,8 +219,10 @@ def _parse_time(raw: Mapping[str, Any], form: Any, null: Null, where: str) -> Ti
         raise _refuse("origin is the instant of second 0", where, origin, "2026-03-01T00:00:00Z, of seconds")
     if origin is not None and origin.tzinfo is None:
         origin = origin.replace(tzinfo=UTC)
-    unit = _take(raw, "unit", str, where, "")
-    return TimeEntry(names, written, unit, origin, null + _read_null(raw, where))
+    unit: str = _take(raw, "unit", str, where, "")
+    if rate is not None:
+        unit, rate = "s", float(read_si(read_quantity(rate, where, count=1), "Hz", 9.8, where)[0])
+    return TimeEntry(names, written, unit, rate or 1.0, origin, null + _read_null(raw, where))
 
 
 def _read_axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:
@@ -328,7 +334,8 @@ def _read_plain(table: DataTable) -> DataTable:
 
 def join_parts(table: DataTable) -> DataTable:
     """A table whose columns ``year`` to ``second`` are one, ``time``, of seconds since the first midnight."""
-    parts = {c.name.casefold(): c for c in table.columns if c.name.casefold() in PARTS and c.is_number}
+    names = {c.name: re.sub("^(utc|gps)_", "", c.name.casefold()) for c in table.columns}
+    parts = {names[c.name]: c for c in table.columns if names[c.name] in PARTS and c.is_number}
     if len(parts) < len(PARTS) or "time" in table.names:
         return table
     stamps = pd.to_datetime(pd.DataFrame({n: parts[n].values for n in PARTS}), errors="coerce")
@@ -345,7 +352,9 @@ def _read_mapped(table: DataTable, mapping: Mapped) -> DataTable:
     named = replace(table, notes=tuple(notes), origin=mapping.time.origin, demodulation=mapping.demodulator)
     entries = mapping.channels.items()
     chosen = {n: (c := table.column(e.column), replace(e, unit=e.unit or c.unit)) for n, e in entries}
-    read = _read_columns(named, [table.column(n) for n in mapping.time.columns], mapping.time, chosen)
+    rows = [DataColumn("row", "", np.arange(float(len(table))))]
+    times = [table.column(n) for n in mapping.time.columns] or rows
+    read = _read_columns(named, times, mapping.time, chosen)
     return read if mapping.axes is None else _turn(read, mapping.axes, mapping.path)
 
 
@@ -359,7 +368,10 @@ def _read_columns(
     columns, notes = [], list[str]()
     if times:
         time, table = _read_time(times, table, t)
-        columns.append(_leave_out_codes(time, t.null, notes))
+        time = _leave_out_codes(time, t.null, notes)
+        time, fraction = _add_fraction(time, table.columns, notes)
+        columns.append(replace(time, values=time.values / t.rate))
+        chosen = {n: (c, e) for n, (c, e) in chosen.items() if c is not fraction}
     for name, (c, e) in chosen.items():
         read = replace(_read_numbers(c, table, e.null), name=name, unit=e.unit)
         read = _leave_out_codes(read, e.null, notes)
@@ -397,6 +409,27 @@ def _read_time(columns: Sequence[DataColumn], table: DataTable, t: TimeEntry) ->
     return time, table
 
 
+def _add_fraction(
+    time: DataColumn, columns: Sequence[DataColumn], notes: list[str]
+) -> tuple[DataColumn, DataColumn | None]:
+    """Stamps of whole seconds with the fraction that a column of its own holds, in whatever unit, and that column: with it
+    the steps are alike, within a second and from one to the next.
+    """
+    steps = np.diff(time.values)
+    coarse = np.sum(steps == 0.0) > SHARED * len(steps) and np.any(steps > 0.0)
+    for c in columns if coarse and units(9.8).fits(time.unit or "1", "s") else ():
+        if not c.is_number or not 0.0 <= np.min(c.values) < np.max(c.values) < 1e10:
+            continue
+        scale = 10.0 ** -np.ceil(np.log10(np.max(c.values)))
+        values = time.values + scale * c.values
+        usual, between = np.median(np.diff(values)), np.median(np.diff(values)[steps > 0.0])
+        alike = np.abs(np.diff(values) - usual) < 0.5 * usual
+        if np.mean(alike) > 1 - SHARED and abs(between - usual) < 0.5 * usual:
+            notes.append(f"time: {c.name}, in units of {scale:g} s, is the fraction of its seconds")
+            return replace(time, values=values), c
+    return time, None
+
+
 # --- several tables, several lines ----------------------------------------------------------------------
 
 
@@ -408,7 +441,10 @@ def choose_tables(
     branch = [t for t in tables if t.columns and f"{t.part.strip('/')}/".startswith(inside)]
     alike = next((c for n in (needed, {"time"}) if (c := [t for t in branch if n <= {*t.names}])), branch)
     if len(alike) == 1:
-        return [replace(alike[0], line=None)]
+        others = (t for t in tables if t is not alike[0] and {*t.names} & SI_UNITS.keys())
+        spare = [f"{t.part or '/'} ({', '.join(t.names[:8])})" for t in others]
+        note = [f"skipped, further tables: {one_line('; '.join(spare[:6]))}"] * bool(spare and not part)
+        return [replace(alike[0], line=None, notes=(*alike[0].notes, *note))]
     if len({tuple(sorted(t.names)) for t in alike}) == 1:
         return alike
     parts = [t.part or "/" for t in alike]
@@ -417,7 +453,9 @@ def choose_tables(
         where=where,
         found=", ".join(parts[:12]) + (" ..." if len(parts) > 12 else "") or None,
         expected=part or "vectors of one length in one place, or in groups of equal structure",
-        remedy="choose one in a mapping: [file] part = ...",
+        remedy="choose one in a mapping: [file] part = ..."
+        if alike
+        else 'save tables and objects of MATLAB as structures: table2struct(t, "ToScalar", true)',
     )
 
 
@@ -438,11 +476,13 @@ def split_lines(tables: Sequence[DataTable], column: str | None, where: Path | s
             found=f"{len(different)} values in {len(which)} rows",
             expected=f"at most {MOST_LINES}, or another column in a mapping: [file] line = ...",
         )
-    codes, names = pd.factorize(np.array([name_line(v) for v in different], dtype=object)[which])
-    parts = np.split(np.argsort(codes, kind="stable"), np.cumsum(np.bincount(codes))[:-1])
-    rows = dict(zip(names, parts, strict=False))  # of a table without rows there is one part, and no name
+    labels = pd.Series(np.array([name_line(v) for v in different], dtype=object)[which])
+    once = np.sum(labels == "") > 0.5 * len(labels)  # in the first row of each
+    labels = labels.where(labels != "").ffill().fillna("") if once else labels
+    rows = {str(n): part.index.to_numpy() for n, part in labels.groupby(labels, sort=False)}
     lost = len(rows.pop("", ()))
     note = [f"{count(lost, 'row')} without the name of a line left out"] * bool(lost)
+    note += ["a line is named in its first row, and goes on to the next name"] * bool(once)
     others = tuple(x for x in table.columns if x is not c)
     rest = replace(table, columns=others, notes=(*table.notes, *note))
     return [replace(rest.rows(r), line=n) for n, r in rows.items()]

@@ -79,9 +79,7 @@ class Flag:
     """Something odd about some samples of a record, and what that means for a verdict."""
 
     columns: tuple[str, ...]  # names of those that it is about; empty: the whole record
-    reason: (
-        str  # what is odd, and what was done about it, as one sentence for people: the note that a user reads
-    )
+    reason: str  # what is odd, and what was done about it: the sentence that a user reads
     open: bool = False  # whether it is still in the record: of such a record only ``effects`` may be claimed
     effects: tuple[str, ...] = ()  # ids of those that describe the same, and may be claimed with it
     # motion-noise of sensors whose noise shows in the output, still where one of their columns holds one value, coarse of a
@@ -126,9 +124,7 @@ class Flight:
         names = ("time", *self.channels, *self.outputs)
         units = {n: self.units.get(n) or SI_UNITS.get(n, default.get(n, "1")) for n in names}
         for name, value in (changes | {"units": MappingProxyType(units)}).items():
-            object.__setattr__(
-                self, name, value
-            )  # the way of frozen dataclasses to normalise what they are given
+            object.__setattr__(self, name, value)  # as frozen dataclasses normalise what they are given
 
     def __repr__(self) -> str:
         columns = " ".join((*self.channels, *self.outputs))

@@ -58,7 +58,9 @@ does so by 500 ppm until it is right."""
 MOST_SET = 20  # places at which a clock may have been set in a record; more of them are jitter
 # share of rows with the stamp of the row before from which the stamps are too coarse, and not rows doubled
 SHARED = 0.2
-_BY_COUNT = "if sampling continued, give the times by the sample count: time = row / {rate:.6g} Hz; else split the record there"
+_COUNT_ROWS = 'count the rows: rate = "{rate} Hz" under [time] of a mapping'
+_BY_COUNT = f"if sampling continued, {_COUNT_ROWS}; else split the record there"
+WAS_SET = "was the clock adjusted?"
 
 
 @dataclass(frozen=True)
@@ -121,7 +123,7 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
             where=where,
             found=f"gaps as regular as if stamps of {rate:.6g} Hz were rounded, or read from a buffer for several samples at once",
             expected="stamps to half a step, or all rows",
-            remedy=_BY_COUNT.format(rate=rate),
+            remedy=_BY_COUNT.format(rate=f"{rate:.6g}"),
         )
     if size > len(time) / (1 - _MOST_MISSING) or not span / step < 2.0**53:
         what = "more than nine samples in ten are missing"
@@ -129,7 +131,7 @@ def make_grid(time: Array, path: Path | str | None) -> Grid:
         leaps = np.flatnonzero(jumps > 1)
         if len(leaps) <= FEW_LEAPS:  # a clock that was set, to summer time or to another day
             what = _ask_about(f"by {steps[k]:.6g} s at t = {time[k]:.10g} s" for k in leaps)
-            remedy = _BY_COUNT.format(rate=1 / step)
+            remedy = _BY_COUNT.format(rate=f"{1 / step:.6g}")
         found = f"{len(time)} samples in {span:.6g} s, with steps of {step:.6g} s"
         raise UserError(what, where=where, found=found, remedy=remedy)
     rounded = _unround(time, index, 1.0 if size == len(time) else 0.5)
@@ -367,18 +369,18 @@ def _describe_jitter(time: Array, jumps: NDArray[np.int64], off: Array, step: fl
 
 def _ask_about(steps: Iterable[object]) -> str:
     """Whether a clock was set, by the first of its steps."""
-    return f"the time stamps jump {', '.join(map(str, islice(steps, 3)))}: was the clock adjusted?"
+    return f"the time stamps jump {', '.join(map(str, islice(steps, 3)))}: {WAS_SET}"
 
 
 def _refuse_uneven(time: Array, steps: Array, step: float, off: Array, where: str) -> UserError:
     row, present = int(np.argmax(off)), np.ones(len(time), dtype=np.bool_)
     rate = 1 / _round_rate(float(time[-1] - time[0]) / (len(time) - 1), float(np.max(steps)) / len(time))
     what = "the record is not uniformly sampled"
-    remedy = f"if its stamps alone are late: time = row / {rate:.6g} Hz; else resample the record to a constant rate"
+    remedy = f"if its stamps alone are late, {_COUNT_ROWS.format(rate=f'{rate:.6g}')}; else resample it to a constant rate"
     if was_set := find_clock_steps(time, present):
         what = _ask_about(was_set)
         step = fit_even_clock(time, present)[1]
-        remedy = _BY_COUNT.format(rate=1 / step)
+        remedy = _BY_COUNT.format(rate=f"{1 / step:.6g}")
     return UserError(
         what,
         where=where,
@@ -402,8 +404,8 @@ def _require_increasing(time: Array, path: Path | str | None, where: str) -> Non
     found += f" (and {len(wrong) - 1} more such places)" if len(wrong) > 1 else ""
     what, remedy = (
         "the time runs backwards",
-        "remove duplicate rows or sort the rows by time; two records need two files; of a clock that was set (to winter time?) give"
-        " the times by the sample count",
+        "remove duplicate rows or sort the rows by time; two records need two files; if a clock was set (to winter time?), "
+        + _COUNT_ROWS.format(rate=16),
     )
     in_order = np.diff(np.sort(time))
     swapped = np.min(in_order) > 0.5 * np.median(in_order)
@@ -416,8 +418,8 @@ def _require_increasing(time: Array, path: Path | str | None, where: str) -> Non
         what = "an instant appears twice"
     elif len(wrong) <= MOST_SET and -steps[row] < 0.5 * float(np.ptp(time)) and not swapped:
         step = _find_typical_step(steps[steps > 0])
-        what = f"the time stamps jump back by {step - steps[row]:.4g} s at t = {time[row]:.10g} s: was the clock adjusted?"
-        remedy = _BY_COUNT.format(rate=1 / step)
+        what = f"the time stamps jump back by {step - steps[row]:.4g} s at t = {time[row]:.10g} s: {WAS_SET}"
+        remedy = _BY_COUNT.format(rate=f"{1 / step:.6g}")
     raise UserError(what, where=where, found=found, expected="increasing time", remedy=remedy)
 
 
@@ -426,16 +428,11 @@ def _describe_coarse(time: Array, steps: Array) -> tuple[str, str]:
     edges, single = np.flatnonzero(steps != 0) + 1, time.astype(np.float32)
     spacing = float(np.spacing(np.abs(single).max())) if np.array_equal(single, time) else 0.0
     rows = len(time) / (len(edges) + 1)
-    stamps = f"{count(len(edges) + 1, 'different stamp')} in {len(time)} rows, each in about {rows:.4g} rows"
-    rate = "rate"
+    whole = "; they are whole seconds" * np.array_equal(np.rint(time), time)
+    rate, how = "...", whole if len(edges) else "; the clock stands still"
     if spacing >= 1e-3:
-        stamps += f"; single precision has steps of {spacing:.3g} s there"
+        how = f"; single precision has steps of {spacing:.3g} s there"
     elif len(edges):
-        stamps += "; they are whole seconds" * np.array_equal(np.rint(time), time)
-        rate = f"{rows / float(np.median(steps[edges - 1])):.6g} Hz"
-    else:
-        stamps += ": the clock stands still"
-    remedy = (
-        f"give the times by the rate and the number of the row: time = row / {rate}; no row is duplicated"
-    )
-    return stamps, remedy
+        rate = f"{rows / float(np.median(steps[edges - 1])):.6g}"
+    stamps = f"{count(len(edges) + 1, 'different stamp')} in {len(time)} rows, each in about {rows:.4g} rows"
+    return stamps + how, _COUNT_ROWS.format(rate=rate) + "; no row is duplicated"

@@ -29,9 +29,9 @@ _WORDS = (
 _OF_C = tuple(f"{sign}1.#{word}" for sign in ("", "-") for word in ("IND", "QNAN", "INF"))
 _OF_EXCEL = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
 MISSING = frozenset(
-    ("", "?", *(c * k for c in "-*" for k in range(1, 25)), *_WORDS.split(), *_OF_C, *_OF_EXCEL)
+    ("", "?", *(c * k for c in "-*=" for k in range(1, 25)), *_WORDS.split(), *_OF_C, *_OF_EXCEL)
 )
-"""Cells that hold nothing; Fortran writes asterisks for what has no room."""
+"""Cells that hold nothing; Fortran writes asterisks for what has no room, and rulers stand below headers."""
 
 _HEADING = re.compile(
     r"(?P<name>[^\[\]]*?)\s*\[(?P<inside>[^\[\]]*)\]"
@@ -46,6 +46,7 @@ _QUANTITY = re.compile(
 )
 """A number, perhaps with its unit in the same cell."""
 
+_SIGN = re.compile(r"^([+-])\s+(?=[\d.,])")
 _EXPONENT = re.compile(r"([\d.])[dD]([+-]?\d)")
 _GROUPED = re.compile(r"(?<=\d)['\u2019 \u00a0\u202f](?=\d{3}(?:\D|$))")
 _THOUSANDS = {m: rf"[+-]?[1-9]\d{{0,2}}(?:[{m}]\d{{3}})+" for m in ",."}
@@ -104,9 +105,8 @@ class DataTable:
     decimal: str = ""  # the mark in its texts
     # of a flight
     place: str = ""  # for messages
-    origin: datetime | None = (
-        None  # the instant at which time is 0, if known (UTC, or GPS time where the file has that)
-    )
+    # the instant at which time is 0, if known (UTC, or GPS time where the file has that)
+    origin: datetime | None = None
     instants: bool = False  # whether its stamps are instants, not seconds
     demodulation: Demodulation | None = None  # how its channels were made, if that is known
 
@@ -195,10 +195,10 @@ def write_cell(cell: Any) -> str:
 def split_quantity(text: str) -> tuple[str, str]:
     """Number and unit of a cell, however its thousands and decimals are divided; both empty where it holds no number.
 
-    The minus of print, the D of Fortran and blanks between thousands become what programs read.
+    The minus of print, the D of Fortran, and blanks behind signs and between thousands become what programs read.
     """
-    plain = _GROUPED.sub("", _EXPONENT.sub(r"\1e\2", text.replace("\u2212", "-")))
-    match = _QUANTITY.fullmatch(plain)
+    plain = _EXPONENT.sub(r"\1e\2", _SIGN.sub(r"\1", text.replace("\u2212", "-")))
+    match = _QUANTITY.fullmatch(_GROUPED.sub("", plain))
     return (match["number"], match["unit"] or "") if match else ("", "")
 
 

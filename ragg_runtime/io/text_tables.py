@@ -17,7 +17,7 @@ import zipfile
 import zlib
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -51,7 +51,9 @@ _CELL_OF_XML = 4  # bytes in memory for one of a sheet's XML: a cell of 25 bytes
 _NOT_CSV = "the file is not a table of comma-separated values"
 _GZIP = b"\x1f\x8b"
 _BLANKS = " \t"
-_REMARK = re.compile(r"^\s*(?:#|%|//|!)+\s*")
+_REMARK = re.compile(r"^\s*(?:#|%|//|!|/(?=\s))+\s*")
+_LINE = re.compile(r"\s*(?:line|tie)[\s:]+(?=\S*\d)(\S+)\s*", re.IGNORECASE)
+"""A row of Geosoft that names the flight line of the rows below it."""
 _DATE_CLOCK = re.compile(rb"(\d[/.-]\d\d?[/.-]\d+)[ \t]+(\d\d?:\d\d:)")
 _OTHER_WIDTH = re.compile(r"CSV parse error: (?:Row #(\d+): )?Expected (\d+) columns, got (\d+)")
 """How Arrow says that a line has too few cells or too many."""
@@ -84,9 +86,10 @@ def find_header(rows: Sequence[Sequence[str]]) -> Header | None:
     ]
     data = [_is_data(rows[k]) for k in alike]
     # numbers before the header are followed by other text, or have their names in front
-    kinds = [number != "" and not unit for number, unit in (split_quantity(rows[k][0]) for k in alike)]
-    share = np.mean([k for k, yes in zip(kinds, data, strict=True) if yes] or [False])
-    usual = {True, False} if 0.1 < share < 0.9 else {share > 0.5}
+    cells = [split_quantity(rows[k][0]) if _is_filled(rows[k][0]) else None for k in alike]
+    kinds = [None if c is None else c[0] != "" and not c[1] for c in cells]
+    share = np.mean([k for k, yes in zip(kinds, data, strict=True) if yes and k is not None] or [False])
+    usual = {None, True, False} if 0.1 < share < 0.9 else {None, share > 0.5}
     first = next((k for k in range(len(alike)) if all(data[k : k + 3]) and kinds[k] in usual), len(alike))
     begins = alike[first] if first < len(alike) else len(rows)
     above = [k for k in alike[:first] if any(map(_is_filled, rows[k]))]
@@ -108,14 +111,14 @@ def find_header(rows: Sequence[Sequence[str]]) -> Header | None:
 
 
 def _read_header(rows: list[list[str]]) -> tuple[list[str], list[str], tuple[str, ...]]:
-    """Names with or without units, units of a row below them, and a note of the last rows above the data."""
+    """Names with or without units, units of a row below or above them, and a note of the last rows above the data."""
     units = [""] * len(rows[0])
     if not any(all(read_heading(c)) for r in rows for c in r):
-        for k in range(len(rows) - 1, 0, -1):  # below the units there may be a row of remarks
+        for k in range(len(rows) - 1, -1, -1) if len(rows) > 1 else ():  # below them there may be remarks
             if (row_units := _read_units(rows[k])) is not None:
-                units, rows = row_units, rows[:k]
+                units, rows = row_units, rows[:k] or rows[1:]
                 break
-    if len(rows) > 1 and sum(map(bool, rows[-2])) > 1 and _needs_a_row_above(rows[-1]):
+    if len(rows) > 1 and sum(map(bool, rows[-2])) > 1 and _needs_a_row_above(rows[-1], rows[-2]):
         return _join_rows(rows[-2], rows[-1]), units, (TWO_ROWS,)
     return rows[-1], units, ()
 
@@ -149,12 +152,11 @@ def _are_numbered(rows: Sequence[Sequence[str]], width: int) -> bool:
     return len({int(r[0]) - k for k, r in enumerate(rows)}) == 1
 
 
-def _needs_a_row_above(names: Sequence[str]) -> bool:
-    """Whether names are parts of names: some are missing before the last one, or occur twice."""
+def _needs_a_row_above(names: Sequence[str], above: Sequence[str]) -> bool:
+    """Whether names are parts of names: some are missing below others, or occur twice."""
     bare = [read_heading(n)[0] for n in names]
     filled = [n for n in bare if n]
-    last = max((k for k, n in enumerate(names) if n), default=-1)
-    return "" in bare[: last + 1] or len({*filled}) < len(filled)
+    return any(a and not n for a, n in zip(above, bare, strict=True)) or len({*filled}) < len(filled)
 
 
 def _join_rows(above: Sequence[str], below: Sequence[str]) -> list[str]:
@@ -199,9 +201,14 @@ def read_csv(path: Path) -> list[DataTable]:
         data = re.sub(rb"(?m)^[ \t]+|[ \t]+(?=\r?$)", b"", data)
         data, delimiter = re.sub(rb"[ \t]+", b" ", data), " "
     data = _drop_headers(data, delimiter, headings, notes)
-    table = _parse(data, delimiter, len(headings), len(header.names), path, notes)
+    table, begins = _parse(data, delimiter, len(headings), len(header.names), path, notes)
+    begins = [(0, m[1]) for h in headings[-1:] if (m := _LINE.fullmatch(h.decode()))] + begins
     decimal = find_decimal(table.columns)
-    columns = (_read_cells(texts, decimal) for texts in table.columns)
+    columns = [_read_cells(texts, decimal) for texts in table.columns]
+    if begins:
+        sizes = np.diff([*(row for row, _ in begins), len(table)], prepend=0)
+        columns.append(np.repeat(np.array(["", *(name for _, name in begins)], dtype=object), sizes))
+        header = replace(header, names=(*header.names, "line"), units=(*header.units, ""))
     return [_make_table(header, columns, notes, counts=("line", len(headings) + 1), decimal=decimal)]
 
 
@@ -292,27 +299,31 @@ def _split_at_blanks(lines: Sequence[str]) -> list[list[str]]:
 
 def _drop_headers(data: bytes, delimiter: str, headings: Sequence[bytes], notes: list[str]) -> bytes:
     """The text without repeated headings, as in files that were joined."""
-    begins, repeated = sum(map(len, headings)), 0
-    for heading in headings:
-        if delimiter.encode() in heading and data.find(b"\n" + heading, begins - 1) >= 0:
-            body = data[begins - 1 :]
-            repeated += body.count(b"\n" + heading)
-            data = data[: begins - 1] + body.replace(b"\n" + heading, b"\n\n")
+    begins, repeated = sum(map(len, headings)) - 1, 0
+    for heading in (b"\n" + h for h in headings if delimiter.encode() in h):
+        if again := data.count(heading, max(begins, 0)):
+            repeated += again
+            data = data[:begins] + data[begins:].replace(heading, b"\n\n")
     if repeated:
         notes.append(f"the header is repeated ({count(repeated, 'line')}): skipped")
     return data
 
 
-def _parse(data: bytes, delimiter: str, lines: int, width: int, path: Path, notes: list[str]) -> pa.Table:
-    """The columns as texts; UserError where a line with data has another width. Others, such as remarks, and
-    a last line that is cut off are skipped.
+def _parse(
+    data: bytes, delimiter: str, lines: int, width: int, path: Path, notes: list[str]
+) -> tuple[pa.Table, list[tuple[int, str]]]:
+    """The columns as texts, and the rows at which flight lines begin, with their names; UserError where a line with data has another
+    width. Others, such as remarks, and a last line that is cut off are skipped.
     """
-    passed: list[str] = []
+    passed, begins = list[str](), list[tuple[int, str]]()
     cut = data[data.rfind(b"\n") + 1 :].decode()  # a recorder that lost its power ends within a line
 
     def judge(row: pyarrow.csv.InvalidRow) -> str:
         if row.text == cut and row.actual_columns < row.expected_columns:
             notes.append(f"line {row.number}, the last one, is cut off; it is left out")
+            return "skip"
+        if m := _LINE.fullmatch(row.text):
+            begins.append((row.number - lines - 1 - len(begins) - len(passed), m[1]))
             return "skip"
         if not _REMARK.match(row.text) and _is_data(row.text.split(delimiter)):
             return "error"
@@ -330,7 +341,7 @@ def _parse(data: bytes, delimiter: str, lines: int, width: int, path: Path, note
         table = pyarrow.csv.read_csv(pa.BufferReader(data), options, parse, convert)
     except pa.ArrowInvalid as error:
         if "Empty CSV" in str(error):
-            return pa.table({n: pa.array([], k) for n, k in kinds.items()})
+            return pa.table({n: pa.array([], k) for n, k in kinds.items()}), []
         if match := _OTHER_WIDTH.match(str(error)):
             where, what = at(path, f"line {match[1]}"), "the line has the wrong number of values"
             expected = f"{match[2]}, as the header has: the file may be damaged or cut off"
@@ -338,7 +349,7 @@ def _parse(data: bytes, delimiter: str, lines: int, width: int, path: Path, note
         raise UserError(_NOT_CSV, where=path, found=str(error).splitlines()[0][:200]) from None
     if passed:
         notes.append(f"{count(len(passed), 'line')} without data skipped: {', '.join(passed[:3])}")
-    return table
+    return table, begins
 
 
 # --- Excel ---------------------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ from ragg_runtime.io.assemble import FEWEST_LEVELS, derive_acceleration
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, DEMODULATED, SPECIFIC_FORCE, Flag
 from ragg_runtime.io.sampling import (
     JITTER_NOTED,
+    WAS_SET,
     ClockStep,
     find_clock_steps,
     fit_clock_put_right,
@@ -336,6 +337,8 @@ def _correct_clock(s: Sampler) -> Flight:
     steps = find_clock_steps(x.time, x.present)
     if worst <= EVEN and not steps:
         return x
+    if any(not c.until for c in steps):  # answered below
+        x = replace(x, notes=tuple(n for n in x.notes if not n.endswith(WAS_SET)))
     recorded = fit_rows(s.take())
     even = s.with_flight(replace(x, time=instants, began=(x.began or 0.0) + float(instants[0] - x.time[0])))
     # times by the count are even: what that is worth where stamps jitter says nothing about a clock

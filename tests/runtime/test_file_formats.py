@@ -78,8 +78,7 @@ def flight(n: int = 300, lost: tuple[int, ...] = ()) -> Flight:
     rng = np.random.default_rng(1)
     names = [f"{v}_{k}" for v in ("a", "omega", "omegadot") for k in "xyz"] + ["temperature", "fuel"]
     channels = {name: rng.normal(size=n) * 10.0 ** rng.integers(-9, 9) for name in names}
-    valid = np.ones(n, dtype=bool)
-    valid[list(lost)] = False
+    valid = ~np.isin(np.arange(n), lost)
     outputs = {"G_out": np.where(valid, rng.normal(size=n), np.nan), "inline": rng.normal(size=n) * 1e-9}
     return Flight(1e5 + np.arange(n) / 16, channels, outputs, valid=valid, units={"fuel": "kg"})
 
@@ -164,6 +163,7 @@ def test_netcdf_of_other_tools(tmp_path: Path, classic: bool) -> None:
         "crs": ((), np.int32(4326), {}),
         "count": ("t", np.full(50, -2, np.int16), {"units": "1", "_Unsigned": "true"}),
         "line": ("k", np.arange(2.0), {}),
+        "load": ("t", np.arange(50, dtype=np.int16), {"units": "1", "scale": 0.5, "offset": "1"}),
         "state": ("t", np.arange(50, dtype=np.int8) % 2, flags),
     }
 
@@ -192,6 +192,7 @@ def test_netcdf_of_other_tools(tmp_path: Path, classic: bool) -> None:
     assert copy.channels["a_x"][places[:3]] == pytest.approx(G0 * (0.5 * packed[places[:3]] + 1.0))
     assert np.flatnonzero(~copy.valid).tolist() == ([3, 11] if classic else [3, 9, 11])
     assert "state holds text; it is left out" in copy.notes
+    assert copy.channels["load"][2] == 2.0 and "load: attributes offset, scale: applied" in copy.notes
     (note,) = (n for n in copy.notes if n.startswith("skipped"))
     assert "'crs' (a single value)" in note and "'line' (2)" in note
     for change, drop, what in (
@@ -211,9 +212,8 @@ def test_tables_of_records_in_hdf5(tmp_path: Path) -> None:
     units = [*(x.units[n] for n in x.channels), "V"]
     values = [*x.channels.values(), x.outputs["G_out"]]
     records = np.zeros(60, dtype=[("time", "f8"), *((n, "f8") for n in names)])
-    for n, v in zip(names, values, strict=True):
+    for n, v in zip(["time", *names], [x.time, *values], strict=True):
         records[n] = v
-    records["time"] = x.time
     with h5py.File(tmp_path / "a.h5", "w") as file:
         file["flight/table"] = records
         file["flight/table"].attrs["units"] = ["s", *units]
@@ -250,8 +250,7 @@ def test_tables_of_records_in_hdf5(tmp_path: Path) -> None:
 def test_a_workspace_of_matlab(tmp_path: Path) -> None:
     """Vectors of other lengths, texts, cells and structures beside the flight are passed over."""
     x = flight(60)
-    cell = np.empty(3, dtype=object)
-    cell[:] = ["__import__('os').system('true')", "a", "b"]
+    cell = np.array(["__import__('os').system('true')", "a", "b"], dtype=object)
     motion = np.stack([x.channels[f"a_{k}"] for k in "xyz"], axis=1)
     whole = {"time": x.time[:, None], "a": motion, "window": np.hanning(16), "c": cell}
     whole |= {"comment": "calm", "fs": 16.0, "settings": {"gain": np.ones(5), "name": "x"}}

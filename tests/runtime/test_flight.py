@@ -68,10 +68,10 @@ def test_units_and_fields(load: Load, tmp_path: Path) -> None:
 
 
 def test_auxiliary_channels_of_any_name_come_in_si(load: Load) -> None:
-    values = {"temperature": 20.0, "roll": 180.0, "fuel": 3.0, "B_x": 5e4, "valve": 1.0}
-    units = {"temperature": "degC", "roll": "deg", "fuel": "t", "B_x": "nT", "valve": "1"}
+    values = {"temperature": 20.0, "roll": 180.0, "fuel": 3.0, "B_x": 5e4, "B_y": 0.5, "valve": 1.0}
+    units = {"temperature": "degC", "roll": "deg", "fuel": "t", "B_x": "nT", "B_y": "G", "valve": "1"}
     flight = load(columns() | {n: np.full(N, v) for n, v in values.items()}, units)
-    expected = {"temperature": 293.15, "roll": np.pi, "fuel": 3000.0, "B_x": 5e-5, "valve": 1.0}
+    expected = {"temperature": 293.15, "roll": np.pi, "fuel": 3000.0, "B_x": 5e-5, "B_y": 5e-5, "valve": 1.0}
     for name, value in expected.items():
         assert flight.channels[name] == pytest.approx(np.full(N, value))
     assert (flight.units["temperature"], flight.units["fuel"], flight.units["valve"]) == ("K", "kg", "1")

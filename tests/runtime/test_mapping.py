@@ -94,9 +94,8 @@ def test_the_axes_turn_places_too() -> None:
         for n, _ in columns
     }
     lines = "".join(f'{n} = {{ column = "{n}", unit = "{u}" }}\n' for n, u in units.items())
-    flight = read_flight(
-        {"T": x.time, **dict(columns)}, G0, mapping=parse(f"{head}[columns]\n{lines}[axes]{tail}")
-    )
+    mapping = parse(f"{head}[columns]\n{lines}[axes]{tail}")
+    flight = read_flight({"T": x.time, **dict(columns)}, G0, mapping=mapping)
     assert [flight.channels[f"mass_{k}"][0] for k in "xyz"] == [1.0, 0.0, -2.0]
     assert np.array_equal(flight.channels["a_z"], -x.channels["a_z"])
 
@@ -107,6 +106,7 @@ def test_the_axes_turn_places_too() -> None:
         ("2026-03-01T12:00:{s:07.4f}Z", "T", 'column = "T"\nformat = "iso"', 43200.0, 1),
         ("1200{s:07.4f}", "T", 'column = "T"\nformat = "clock"', 43200.0, None),
         ("{t:.4f}", "T", 'column = "T"\nunit = "s"\norigin = 2026-03-01T00:00:00Z', 0.0, 1),
+        ("{t:.4f}", "T", 'rate = "16 Hz"', 0.0, None),
         ("2408,{t:.4f}", "W,S", 'column = ["W", "S"]\nformat = "gps"', 0.0, 1),  # 1 March 2026 is a Sunday
     ],
 )
@@ -147,6 +147,7 @@ def test_lines_become_flights(tmp_path: Path) -> None:
         ('unit = "s"', 'format = "iso8601"', ("format", "iso")),
         ('unit = "s"', 'format = "gps"', ("two columns",)),
         ('unit = "s"', 'unit = "s"\norigin = "2026"', ("origin",)),
+        ('unit = "s"', 'unit = "s"\nrate = "16 Hz"', ("rate", "no unit")),
         ("[axes]", "[axis]", ("unknown key", "axes")),
         ('column = "AN"', 'colum = "AN"', ("not named",)),
         ('column = "AN"', 'column = 3', ("column", "text")),

@@ -234,7 +234,7 @@ def test_rounded_stamps_are_put_on_their_grid(rate: float, start: float, unit: f
 def test_stamps_rounded_to_most_of_a_step_are_no_gaps() -> None:
     bursts = (TIME // size * size + (TIME % size) * share for size, share in ((0.125, 0.48), (1.0, 0.02)))
     for stamps in (np.round(TIME / 0.05) * 0.05, *bursts):
-        with pytest.raises(UserError, match=r"too coarse[^$]*16 Hz were rounded[^$]*row / 16 Hz"):
+        with pytest.raises(UserError, match=r"too coarse[^$]*16 Hz were rounded[^$]*rate = .16 Hz"):
             make_grid(stamps, None)
     lost = np.random.default_rng(4).random(N) > 0.1
     assert len(make_grid(TIME[lost], None).index) == np.sum(lost)
@@ -246,7 +246,7 @@ def test_stamps_that_are_too_coarse_are_no_doubled_rows() -> None:
         with pytest.raises(UserError, match="too coarse for the sampling rate") as caught:
             make_grid(stamps, None)
         message = str(caught.value)
-        assert words in message and "time = row / " in message and "remove" not in message
+        assert words in message and "count the rows: rate = " in message and "remove" not in message
 
 
 @pytest.mark.parametrize(("size", "digits"), [(0.025, 3), (0.7, 9), (3.013, 3), (-0.025, 9)])
@@ -271,7 +271,7 @@ def test_a_clock_that_was_slewed_is_found_with_its_times(rate: float) -> None:
 
 
 def test_steps_that_cannot_be_followed_are_named_with_the_rate_between_them() -> None:
-    two = r"by 0.025 s at t = 100[.\d]* s, by -0.06 s at t = 125[.\d]* s: was the clock [^$]*row / 16 Hz"
+    two = r"by 0.025 s at t = 100[.\d]* s, by -0.06 s at t = 125[.\d]* s: was the clock [^$]*rate = .16 Hz"
     for stamps, said in (
         (TIME + 0.025 * (TIME > 100) - 0.06 * (TIME > 125), two),
         (TIME - 10.0 * (TIME > 125), r"jump back by 10 s at t = 125 s: was the clock adjusted"),

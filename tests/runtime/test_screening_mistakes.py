@@ -229,12 +229,13 @@ def test_a_clock_that_was_set_is_said_with_its_time(monkeypatch, size: float, hi
     wrong = replace(
         wrong,
         time=x.time[rows] + size * (x.time[rows] >= 90) if not gap else wrong.time,
+        notes=("the time stamps jump: was the clock adjusted?",),
         valid=~lacking & (np.abs(np.arange(len(rows)) - at) > 40 * (gap > 0)),
         outputs={n: np.where(lacking, np.nan, v) for n, v in wrong.outputs.items()},
     )
     flight = screen(MODEL, drawn(12).sheet, wrong)
     reasons = [f.reason for f in flight.flags if "the sample count" in f.reason]
-    assert len(reasons) == 1 and f"the time stamps jump by {size:g} s at t = 9" in reasons[0]
+    assert [*flight.notes] == reasons[:1] and f"the time stamps jump by {size:g} s at t = 9" in reasons[0]
     np.testing.assert_allclose(flight.time, x.time, atol=1e-9)
 
 

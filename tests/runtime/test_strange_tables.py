@@ -56,8 +56,7 @@ def same(flight: Any, instants: bool = False) -> None:
     assert flight.channels["a_y"] == pytest.approx(VALUES["a_y"] * G0)
 
 
-PLAIN = ",".join(HEADER)
-REST = ";" + ";".join(HEADER[1:])
+PLAIN, TAIL, REST = ",".join(HEADER), ",".join(HEADER[1:]), ";" + ";".join(HEADER[1:])
 CSV = {
     "a comma behind every line": text(PLAIN + ",", [[*r, ""] for r in rows()]),
     "a comma behind every row": text(PLAIN, [[*r, ""] for r in rows()]),
@@ -82,11 +81,11 @@ CSV = {
     "UTF-16": text(PLAIN, rows()).encode("utf-16"),
     **{f"{order} without its mark": text(PLAIN, rows()).encode(order) for order in ("utf-16-le", "utf-16-be")},
     "a remark in one row": text(PLAIN + ",remark", [[*r, "1" if k < 50 else "x"] for k, r in enumerate(rows())]),
-    "an index that is time": text("," + PLAIN.partition(",")[2], rows([f"0 days 00:00:{t:09.6f}" for t in VALUES["time"]])),
+    "an index that is time": text("," + TAIL, rows([f"0 days 00:00:{t:09.6f}" for t in VALUES["time"]])),
     "remarks among the rows and at the end": text(PLAIN, [*rows()[:9], ["# marker 5"], *rows()[9:], ["end", "of", "record"]]),
     "cut off in its last line": text(PLAIN, [*rows(), [3.75, 0.1]]).rstrip(),
     "joined from two": text(PLAIN, [*rows()[:9], [PLAIN], *rows()[9:]]),
-    "thousands": text("time [ms]," + PLAIN.partition(",")[2], rows([f'"{1000 * t:,.1f}"' for t in VALUES["time"]])),
+    "thousands": text("time [ms]," + TAIL, rows([f'"{1000 * t:,.1f}"' for t in VALUES["time"]])),
     "points between thousands": text(
         "time [ms]" + REST, rows([f"{1000 * t:,.1f}".translate({44: ".", 46: ","}) for t in VALUES["time"]]), ";", decimal=","
     ),
@@ -116,15 +115,20 @@ CSV = {
     "units in other brackets": text(PLAIN.replace("[", "{").replace("]", "}"), rows()),
     "blanks between thousands": text("time [ms]" + REST, rows([f"{1000 * t:,.1f}".replace(",", "\u202f") for t in VALUES["time"]]), ";"),
     "commas between thousands below a header": text("time [ms]" + REST, rows([f"{1000 * t + 5000:,.1f}" for t in VALUES["time"]]), ";"),
-    "commas between thousands alone": text(
-        "time [us]," + PLAIN.partition(",")[2], rows([f'"{1e6 * t + 1e6:,.0f}"' for t in VALUES["time"]])
-    ),
+    "commas between thousands alone": text("time [us]," + TAIL, rows([f'"{1e6 * t + 1e6:,.0f}"' for t in VALUES["time"]])),
     "points between thousands alone": text(
         "time [us]" + REST, rows([f"{1e6 * t + 1e6:,.0f}".replace(",", ".") for t in VALUES["time"]]), ";", decimal=","
     ),
     "room reserved ahead": text(PLAIN, rows()) + 300 * "\0",
     "row numbers in front, as R writes them": text(PLAIN, [[f'"{k + 1}"', *r] for k, r in enumerate(rows())]),
     "row numbers in front": text("," + PLAIN, [[k, *r] for k, r in enumerate(rows())]),
+    "units above the names": text(",".join(UNITS.values()) + "\n" + ",".join(UNITS), rows()),
+    "columns of pandas in two levels": text(",imu" * 7 + f"\n,{TAIL}\n{HEADER[0]}" + "," * 7, rows()),
+    "signs apart": text(PLAIN, [[f"{'-' if c < 0 else '+'} {abs(c)}" for c in r] for r in rows()]),
+    "zeros reserved ahead": text(PLAIN, [*rows(), *[[0] * 8] * 20]),
+    "milliseconds beside whole seconds": text("time [s],ms," + TAIL, [[int(t), 1000 * (t % 1), *r] for t, *r in rows()]),
+    "a line that is named once": text("Line," + PLAIN, [["" if r[0] else "L7", *r] for r in rows()]),
+    "a line of Geosoft": text("/ " + " ".join(HEADER).replace(" [", "[") + "\n/ ==== ====\nLine 1010", rows(), " "),
 }  # fmt: skip
 
 
@@ -174,6 +178,7 @@ DATES: dict[str, tuple[list[Any], bool]] = {
         [f"2016-12-31T23:59:{59 + k / 16:07.4f}Z" if k < 32 else f"2017-01-01T00:00:{(k - 32) / 16:07.4f}Z" for k in range(N)],
         True,
     ),
+    "the afternoon in Spanish": ([f"{t} p. m." for t in stamps("2026-03-13 10:00:00", "%d/%m/%Y %I:%M:%S.%f")], True),
 }  # fmt: skip
 
 
@@ -181,7 +186,7 @@ DATES: dict[str, tuple[list[Any], bool]] = {
 def test_dates_as_people_write_them(tmp_path: Path, kind: str) -> None:
     times, instants = DATES[kind]
     head = "Year,Month,Day,Hour,Minute,Second," if "columns" in kind else "time,"
-    (tmp_path / "x.csv").write_text(text(head + PLAIN.partition(",")[2], rows(times)))
+    (tmp_path / "x.csv").write_text(text(head + TAIL, rows(times)))
     same(read_flight(tmp_path / "x.csv", G0), instants)
     draft = draft_mapping(tmp_path / "x.csv")
     assert not draft.questions, draft.text
@@ -207,7 +212,7 @@ def test_a_second_of_almost_60_is_no_leap_second(tmp_path: Path) -> None:
 def test_a_date_of_two_meanings_is_asked_for(tmp_path: Path) -> None:
     path = tmp_path / "x.csv"
     times = stamps("2026-03-01 10:00:00", "%m/%d/%Y %H:%M:%S.%f")
-    path.write_text(text("when," + PLAIN.partition(",")[2], rows(times)))
+    path.write_text(text("when," + TAIL, rows(times)))
     draft = draft_mapping(path)
     assert 'format = "?"' in draft.text and "d/m/y" in draft.questions[0]
     march, january = datetime(2026, 3, 1, tzinfo=UTC), datetime(2026, 1, 3, tzinfo=UTC)
@@ -230,10 +235,8 @@ def test_a_date_of_two_meanings_is_asked_for(tmp_path: Path) -> None:
 
 def test_excel_as_people_write_it(tmp_path: Path) -> None:
     """Elapsed times over 24 h (dates of 1900 for Excel), times of the day, a header over merged cells, text among numbers."""
-    merged = [
-        ["time", "a [g]", None, None, "omega [deg/h]", None, None, "G_out [V]"],
-        [None, *"xyzxyz", None],
-    ]
+    above = ["time", "a [g]", None, None, "omega [deg/h]", None, None, "G_out [V]"]
+    merged = [above, [None, *"xyzxyz", None]]
     path, elapsed = tmp_path / "x.xlsx", [timedelta(seconds=float(t)) for t in VALUES["time"]]
     noon, of_1900 = datetime(2026, 3, 1, 23, 59, 58), datetime(1900, 1, 1, 10)
     for times, instants in (
@@ -286,7 +289,9 @@ def test_missing_value_codes(values: np.ndarray, codes: list[float]) -> None:
     assert sorted(find_codes(values)) == sorted(codes)
 
 
-@pytest.mark.parametrize("name", ["x.h5", "x.mat", "rows.mat", "cells.mat", "x.parquet"])
+@pytest.mark.parametrize(
+    "name", [f"{n}.mat" for n in ("x", "rows", "cells", "labels", "signals")] + ["x.h5", "x.parquet"]
+)
 def test_vectors_and_channels_apart(tmp_path: Path, name: str) -> None:
     """A group for each channel; a matrix beside its names, structures, cells of MATLAB; vectors in one column."""
     path = tmp_path / name
@@ -301,25 +306,23 @@ def test_vectors_and_channels_apart(tmp_path: Path, name: str) -> None:
             "x": {"data": data, "colheaders": names, "textdata": names},
             "rows": [dict(zip(UNITS, r, strict=True)) for r in rows()],
             "cells": np.array([HEADER, *rows()], object),
+            "labels": {"imu": data, "imu_label": names},
+            "signals": {
+                "signals": [{"label": h, "values": v} for h, v in zip(HEADER, VALUES.values(), strict=True)]
+            },
         }
         savemat(path, {"data": whole[path.stem], "units": UNITS})
     else:
         a, omega = (np.stack([VALUES[f"{n}_{k}"] for k in "xyz"], 1) for n in ("a", "omega"))
-        one = {
-            "time [s]": VALUES["time"],
-            "a [g]": list(a),
-            "omega [deg/h]": list(omega),
-            "G_out [V]": VALUES["G_out"],
-        }
+        one = {"time [s]": VALUES["time"], "a [g]": list(a), "omega [deg/h]": list(omega)}
+        one["G_out [V]"] = VALUES["G_out"]
         pd.DataFrame(one).to_parquet(path)
     same(read_flight(path, G0))
 
 
 def test_codes_are_left_out_with_a_note_in_every_column(tmp_path: Path) -> None:
-    data = {n: v.copy() for n, v in VALUES.items()} | {
-        "temperature": NOISE[:N].copy(),
-        "load": np.arange(N) % 7.0,
-    }
+    data = {n: v.copy() for n, v in VALUES.items()}
+    data |= {"temperature": NOISE[:N].copy(), "load": np.arange(N) % 7.0}
     for k, n in enumerate((n for n in data if n != "load"), 3):
         data[n][[k, k + 20]] = -9999.0
     data["temperature"][7] = -300.0
@@ -344,14 +347,11 @@ def test_flights_in_memory() -> None:
     bare = {n: v for n, v in VALUES.items() if n != "time"}
     named = pd.DataFrame(bare, index=pd.Index(pd.to_timedelta(VALUES["time"], unit="s")))
     named.attrs = {"units": UNITS}
-    dated = pd.DataFrame(
-        {h: v for h, v in plain.items() if h[0] != "t"},
-        index=pd.to_datetime(stamps("2026-03-01", "%Y-%m-%dT%H:%M:%S.%f")),
-    )
+    index = pd.to_datetime(stamps("2026-03-01", "%Y-%m-%dT%H:%M:%S.%f"))
+    dated = pd.DataFrame({h: v for h, v in plain.items() if h[0] != "t"}, index)
     two = pd.DataFrame(np.stack([*VALUES.values()], axis=1), columns=pd.MultiIndex.from_tuples(UNITS.items()))
-    attributes = xarray.Dataset(
-        {n: ("time", v, {"units": UNITS[n]}) for n, v in bare.items()}, {"time": dated.index}
-    )
+    variables = {n: ("time", v, {"units": UNITS[n]}) for n, v in bare.items()}
+    attributes = xarray.Dataset(variables, {"time": index})
     seconds = attributes.assign_coords(time=("time", VALUES["time"], {"units": "s"}))
     seconds["wide"] = ("band", np.arange(3.0))
     seconds["a_y"].attrs["valid_range"] = [-20.0, 20.0]
@@ -390,9 +390,8 @@ def test_what_is_in_memory_is_compared(tmp_path: Path) -> None:
     x = simulate_flight(m.instrument, [], seed=1, duration=60.0, rate=8.0)
     data = {"time [s]": x.time} | {f"{n} [{x.units[n]}]": v for n, v in {**x.channels, **x.outputs}.items()}
     pd.DataFrame(data).to_csv(tmp_path / "x.csv", index=False)
-    values = [
-        api.compare(m, f).calibrated.rms_Eo for f in (data, [pd.DataFrame(data)], str(tmp_path / "x.csv"))
-    ]
+    sources = (data, [pd.DataFrame(data)], str(tmp_path / "x.csv"))
+    values = [api.compare(m, f).calibrated.rms_Eo for f in sources]
     assert values[0] == values[1] == pytest.approx(values[2], rel=1e-9)
 
 
@@ -406,6 +405,7 @@ def test_a_map_is_written_whatever_is_odd(tmp_path: Path) -> None:
         file["other/time"], file["other/x"] = np.arange(5.0), np.arange(5.0)
     draft = draft_mapping(path)
     assert 'part = "/imu"' in draft.text and "no numbers" in draft.text
+    assert "skipped, further tables: /other (time, x)" in read_flight(path, G0).notes
     same(read_flight(path, G0, mapping=mapped(path)))
     path, lines = tmp_path / "x.csv", [1010] * 20 + [1020] * 20 + ["T9010"] * (N - 20 - 20)
     kinds = text("LINE," + PLAIN, [[n, *r] for n, r in zip(lines, rows(), strict=True)])
@@ -451,11 +451,10 @@ def test_a_table_larger_than_memory_is_refused(tmp_path: Path, monkeypatch: pyte
     with h5py.File(tmp_path / "x.h5", "w") as file:
         for n in UNITS:
             file.create_dataset(n, (10**12,), "f8", chunks=(10**6,))
-    (tmp_path / "x.csv.gz").write_bytes(
-        gzip.compress(PLAIN.encode() + b"\n" + b"0,0,0,0,0,0,0,0\n" * 200_000)
-    )
+    many = PLAIN.encode() + b"\n" + b"0,0,0,0,0,0,0,0\n" * 200_000
+    (tmp_path / "x.txt.gz").write_bytes(gzip.compress(many))
     monkeypatch.setattr(tables, "find_free_memory", lambda: 2e7)
-    for ending in (".h5", ".csv.gz"):
+    for ending in (".h5", ".txt.gz"):
         with pytest.raises(UserError, match="too large for the memory"):
             read_flight(tmp_path / f"x{ending}", G0)
 
