@@ -33,6 +33,7 @@ from ragg_runtime.signals.fir import find_step
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+Index = NDArray[np.intp]
 
 FALLS = 0.99
 """Factor by which the residual must fall. Of noise that makes less than a seventh of it ten thousand samples tell no more than
@@ -52,6 +53,9 @@ SURE = 6.0
 filtered out by effects again: of five effect-free flights one had a false claim and one was unexplained."""
 
 BLOCK = 1 << 16  # samples that are smoothed together: at its ends a prediction is 1.5 times less sure
+TRIED = (
+    4 * BLOCK
+)  # samples in the middle of a record, at most, by which it is decided whether its motion is smoothed
 # error of the smoothed motion, in standard deviations of its noise, at which the conjugate gradients end, and their largest number
 CLOSE, MOST = 1e-3, 400
 TRIANGLE = np.array([0.25, 0.5, 0.25])  # weights that smooth a spectrum over neighbouring frequencies
@@ -121,17 +125,19 @@ def smooth_noisy_motion(s: Sampler) -> Flight:
     valid = s.flight.valid
     if not runs(valid, PREDICTED + 1):
         return s.flight  # of motion that is held at a lower rate, for example, nothing can be told
-    before = fit_rows(s.take())
+    whole, tried = slice(0, len(valid)), _find_middle(s.usable)
+    rows = s.rows(tried.start, tried.stop)
+    before = fit_rows(s.take(rows))
     for names in (SPECIFIC_FORCE, ANGULAR_RATE, ANGULAR_ACCELERATION, GRADIENT):
         if names is ANGULAR_ACCELERATION and names[0] not in s.flight.written:
             continue  # derived from the rates
         x, rng = s.flight.channels, np.random.default_rng(0)
         noise = {n: q for n in names if n in x and (q := measure_noise(x[n], valid)).std > 0.0}
         noisier = {n: x[n] + q.std * rng.standard_normal(len(valid)) for n, q in noise.items()}
-        if not noise or _compare(before.p, s, _change(s, noisier)) < NOTICED * before.rms:
+        if not noise or _compare(before.p, s, _change(s, noisier), rows) < NOTICED * before.rms:
             continue
-        smoothed = _change(s, {n: predict_true(x[n], valid, q.std) for n, q in noise.items()})
-        after = fit_rows(smoothed.take())
+        smoothed = _smooth(s, noise, tried)
+        after = fit_rows(smoothed.take(rows))
         if after.rms >= FALLS * before.rms:
             continue
         flag = _describe(s, noise, before.rms, after.rms)
@@ -139,15 +145,31 @@ def smooth_noisy_motion(s: Sampler) -> Flight:
             channels = {n: v for n, v in x.items() if n not in GRADIENT}
             text = f"{flag.reason}; it is not used but taken to be unknown and to vary slowly"
             return replace(s.flight, channels=channels).flagged([replace(flag, reason=text)])
+        smoothed = smoothed if tried == whole else _smooth(s, noise, whole)
         s, before = replace(smoothed, flight=smoothed.flight.flagged([flag])), after
     return s.flight
 
 
-def _compare(p: Array, one: Sampler, other: Sampler) -> float:
+def _find_middle(usable: Mask) -> slice:
+    """The whole of a short record, else the span of the :data:`TRIED` usable samples in its middle."""
+    places = np.flatnonzero(usable)
+    if len(places) <= TRIED:
+        return slice(0, len(usable))
+    middle = places[(len(places) - TRIED) // 2 :][:TRIED]
+    return slice(int(middle[0]), int(middle[-1]) + 1)
+
+
+def _smooth(s: Sampler, noise: Mapping[str, MotionNoise], rows: slice) -> Sampler:
+    """The same with noisy columns smoothed, in some rows."""
+    x = s.flight
+    return _change(s, {n: predict_true(x.channels[n], x.valid, q.std, rows) for n, q in noise.items()})
+
+
+def _compare(p: Array, one: Sampler, other: Sampler, rows: Index) -> float:
     """Eo rms: how far apart the outputs of a model with parameters ``p`` are at the rows of two flights."""
     evaluate = one.model.chain.output
     first, second = (
-        evaluate(r.time, r.inputs, p, r.phi, which=one.place) for r in (one.take(), other.take())
+        evaluate(r.time, r.inputs, p, r.phi, which=one.place) for r in (one.take(rows), other.take(rows))
     )
     return float(np.std(second - first)) / abs(scale_factor(one.model, p, one.place))
 
@@ -157,21 +179,22 @@ def _change(s: Sampler, columns: Mapping[str, Array]) -> Sampler:
     return s.with_flight(change_columns(s.flight, columns))
 
 
-def predict_true(x: Array, present: Mask, std: float) -> Array:
-    """The best linear prediction of a column (N,) without its white noise, everywhere, from its samples that are ``present`` (N,).
+def predict_true(x: Array, present: Mask, std: float, rows: slice = slice(None)) -> Array:
+    """A column (N,) with the best linear prediction of it without its white noise in some rows, from its samples that are ``present``.
 
     It is B C^-1 x, C the covariance of the measured column, B that of the true one with it: with the ends and gaps that the record has.
     """
     prediction = np.array(x)
     spectrum = _measure_spectrum(x, present)
-    for block in np.array_split(np.arange(len(x)), -(-len(x) // BLOCK)):
-        rows = block[present[block]]
-        if len(rows) > 2:
-            prediction[block] = _predict_block(x[rows], rows - block[0], len(block), std, spectrum)
+    wanted = np.arange(len(x))[rows]
+    for block in np.array_split(wanted, -(-len(wanted) // BLOCK)):
+        there = block[present[block]]
+        if len(there) > 2:
+            prediction[block] = _predict_block(x[there], there - block[0], len(block), std, spectrum)
     return prediction
 
 
-def _predict_block(x: Array, at: NDArray[np.intp], count: int, std: float, q: _Spectrum) -> Array:
+def _predict_block(x: Array, at: Index, count: int, std: float, q: _Spectrum) -> Array:
     """(count,): the prediction for a block of which samples x (n,) at some rows are there."""
     white = 2.0 * std**2  # one-sided, per cycle per sample
     certain = q.density > white * (1.0 + SURE * q.scatter)
