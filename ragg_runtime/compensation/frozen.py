@@ -193,6 +193,6 @@ def warn_of_change(time: str, change: CalibrationChange) -> str:
     p = numbers.equate_probability(change.log_p / np.log(10.0))
     return (
         f"The calibration of {time} does NOT hold here: against parameters fitted to this record chi-square is "
-        f"{change.chi2:.4g} in {len(change.z)} directions (p {p}). Motion errors beyond the "
+        f"{change.chi2:.4g} in {len(change.z)} directions ({p}). Motion errors beyond the "
         "stated uncertainty may remain; no sample is marked good. What changed: ragg compare --frozen"
     )

@@ -221,7 +221,7 @@ def conclude(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> C
     if exceeds_noise(f, calibrated, measure_noise_floor(f)):
         grounds.append("the error is larger than the noise")
     if rem.significant:
-        grounds.append(f"test of the motion terms: p {numbers.equate_probability(rem.log_p / np.log(10.0))}")
+        grounds.append(f"test of the motion terms: {numbers.equate_probability(rem.log_p / np.log(10.0))}")
     if chosen:
         grounds.append(f"test of the catalogue: {chosen[0]} is significant")
     return Comparison(f, nominal, calibrated, holdout, rem, tuple(grounds))

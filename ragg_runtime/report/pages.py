@@ -258,11 +258,11 @@ def _plot_errors(s: Survey) -> Plot:
     for r in s.done:
         before, after = (r["error"][k]["rms_Eo"] for k in ("calibrated", "after"))
         explained = r["verdict"] != "unexplained"
-        bars.append(Bar(str(r["flight"]), after, r["noise_floor"]["rms_Eo"], explained, (before,)))
-    values = [v for b in bars for v in (b.value, b.dots[0])]
+        bars.append(Bar(str(r["flight"]), after, r["noise_floor"]["rms_Eo"], explained, before))
+    values = [v for b in bars for v in (b.value, b.dot)]
     caption = "Error before demodulation of every flight, calibrated alone. Bars: with the effects found in it; grey: unexplained."
     log = max(values) > 6.0 * min(values)
-    return Bars("errors", caption, tuple(bars), "error, Eo rms", log=log, dots=("current model",))
+    return Bars("errors", caption, tuple(bars), "error, Eo rms", log=log, dot="current model")
 
 
 def _plot_trend(t: Json, n: int) -> Plot:

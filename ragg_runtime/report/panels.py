@@ -274,15 +274,14 @@ def list_error_steps(steps: Sequence[Mapping[str, Any]], current: float | None =
     def begin(value: float | None, holdout: float | None) -> None:
         if value is not None and not (bars and abs(value - bars[-1].value) <= 0.02 * value):
             label = change or ("other flights" if bars else "before")
-            dots = (np.nan if holdout is None else holdout,)
-            bars.append(Bar(label, value, strong=bool(change), dots=dots))
+            bars.append(Bar(label, value, strong=bool(change), dot=np.nan if holdout is None else holdout))
 
     for s in steps:
         begin(describe.find_rms(s.get("before")), describe.find_rms(s.get("before"), "holdout"))
         after, holdout = (describe.find_rms(s.get("after"), k) for k in ("calibrated", "holdout"))
         if after is not None:
             label = f"+ {s['effect']}" if s["action"] == "add" else str(s.get("effect") or s["action"])
-            bars.append(Bar(label, after, dots=(np.nan if holdout is None else holdout,)))
+            bars.append(Bar(label, after, dot=np.nan if holdout is None else holdout))
         removed = {"remove": f"{numbers.MINUS} {s.get('effect')}", "edit": "sheet edited"}
         change = removed.get(str(s["action"]), "")
     begin(current, None)
@@ -305,7 +304,7 @@ def plot_history(steps: Sequence[Mapping[str, Any]], noise: float) -> Bars | Non
         "calibrated error, Eo rms",
         log=bool(has_floor and top > 8.0 * noise > 0.0),
         threshold=(noise, f"noise floor {numbers.number(noise)} Eo") if has_floor else None,
-        dots=("held out",),
+        dot="held out",
     )
 
 

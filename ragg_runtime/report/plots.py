@@ -187,43 +187,29 @@ def _add_legend(ax: Drawn, columns: int) -> None:
 
 def _draw_bars(plot: Bars) -> str:
     """Lying bars with their values beside them, a dashed line or dashed ticks where the noise is."""
-    count = len(plot.bars)
-    fig = _make_figure(0.75 + 0.245 * count)
+    fig = _make_figure(0.75 + 0.245 * len(plot.bars))
     ax = fig.subplots()
-    place = np.arange(count, dtype=np.float64)
-    low, ends = _scale_bars(plot)
+    place = np.arange(len(plot.bars), dtype=np.float64)
+    value, noise, dot = (np.array([getattr(b, n) for b in plot.bars]) for n in ("value", "noise", "dot"))
+    level = np.nan if plot.threshold is None else plot.threshold[0]
+    ends = np.nanmax([value, noise, dot], axis=0)
+    top = max(float(np.nanmax([*ends, level])), 1e-12)
+    low = max(float(np.nanmin([*value[value > 0.0], level])) / 2.0, top / 1e6) if plot.log else 0.0
     colours = [COLOURS["residual" if b.strong else "before"] for b in plot.bars]
-    ax.barh(place, ends - low, 0.6, left=low, color=colours)
-    for k, b in enumerate(plot.bars):
-        text = numbers.number(b.value) if np.isfinite(b.value) else "certain"
-        end = max([ends[k], *(d for d in b.dots if np.isfinite(d))])  # nothing may lie below the value
+    ax.barh(place, np.maximum(value - low, 0.0), 0.6, left=low, color=colours)
+    for x, end, at in zip(value, ends, place, strict=True):  # nothing may lie below the text
         beside: dict[str, Any] = {"xytext": (4, 0), "textcoords": "offset points", "va": "center"}
-        ax.annotate(text, (end, place[k]), fontsize=9, bbox=HALO, **beside)
-    noisy = np.array([n for n, b in enumerate(plot.bars) if np.isfinite(b.noise)], dtype=np.intp)
+        ax.annotate(numbers.number(x), (end, at), fontsize=9, bbox=HALO, **beside)
     dashed: dict[str, Any] = {"color": COLOURS["noise"], "linestyle": "--"}
-    if len(noisy):
-        level = [plot.bars[n].noise for n in noisy]
-        ax.vlines(level, place[noisy] - 0.4, place[noisy] + 0.4, label="noise alone", **dashed)
+    if (noisy := np.isfinite(noise)).any():
+        ax.vlines(noise[noisy], place[noisy] - 0.4, place[noisy] + 0.4, label="noise alone", **dashed)
     if plot.threshold is not None:
-        ax.axvline(plot.threshold[0], linewidth=1.0, label=plot.threshold[1], **dashed)
-    for j, (name, marker) in enumerate(zip(plot.dots, "oD", strict=False)):
-        dots = np.array([b.dots[j] if j < len(b.dots) else np.nan for b in plot.bars])
-        visible = np.isfinite(dots) & (dots > low)
+        ax.axvline(level, linewidth=1.0, label=plot.threshold[1], **dashed)
+    if (visible := dot > low).any():
         look: dict[str, Any] = {"color": COLOURS["ink"], "markerfacecolor": COLOURS["paper"]}
-        ax.plot(dots[visible], place[visible], marker, markersize=4.5, label=name, **look)
-    _label_bars(ax, plot, low, float(np.max(ends, initial=1e-12)))
+        ax.plot(dot[visible], place[visible], "o", markersize=4.5, label=plot.dot, **look)
+    _label_bars(ax, plot, low, top)
     return _write_svg(fig, plot.key, plot.caption)
-
-
-def _scale_bars(plot: Bars) -> tuple[float, Array]:
-    """Where bars begin and end; infinite ones are drawn beyond the others."""
-    values, level = np.array([b.value for b in plot.bars]), plot.threshold[0] if plot.threshold else 0.0
-    top = max([float(np.max(values[np.isfinite(values)], initial=0.0)), level, 1e-12])
-    ends = np.where(np.isfinite(values), values, 2.0 * top)
-    if not plot.log:
-        return 0.0, np.nan_to_num(ends)
-    low = max(min([*(float(v) for v in ends if v > 0.0), level or np.inf]) / 2.0, top / 1e6)
-    return low, np.maximum(ends, low)
 
 
 def _label_bars(ax: Drawn, plot: Bars, low: float, top: float) -> None:
@@ -233,10 +219,8 @@ def _label_bars(ax: Drawn, plot: Bars, low: float, top: float) -> None:
         ax.set_xlim(low, top * (top / low) ** 0.14)
         _set_log_ticks(ax, "x")
     else:
-        ax.set_xlim(0.0, 1.18 * max(top, plot.threshold[0] if plot.threshold else 0.0))
-    ax.set_yticks(
-        range(count), ["\n".join(numbers.short(x, 28) for x in b.label.split("\n")) for b in plot.bars]
-    )
+        ax.set_xlim(0.0, 1.18 * top)
+    ax.set_yticks(range(count), [numbers.short(b.label, 28) for b in plot.bars])
     ax.set_ylim(count - 0.4, -0.6)
     ax.set_xlabel(plot.axis)
     ax.tick_params(axis="y", length=0)  # labels of categories need no tick marks and no grid

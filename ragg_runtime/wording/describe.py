@@ -194,7 +194,7 @@ def describe_held(c: Json, flights: Sequence[str], command: str = "", calibrate:
         f"The calibration on {on} {holds} here: its error is {format_error(frozen)} Eo, with parameters fitted to this record"
         f" {format_error(free)} Eo; the noise floor is {format_error(c['noise_floor'])} Eo.",
         f"It was made {h['made'][:16].replace('T', ' ')} UTC. Test against parameters fitted to this record: chi-square"
-        f" {number(h['chi2'])} in {h['degrees_of_freedom']} directions (p {numbers.equate_probability(h['log10_p'])}).",
+        f" {number(h['chi2'])} in {h['degrees_of_freedom']} directions ({numbers.equate_probability(h['log10_p'])}).",
     )
     rows = (("nominal", c["error"]["nominal"]), ("frozen", frozen), ("free", free))
     first, *others = describe_comparison(c, flights, command, rows, judged=False)
@@ -219,8 +219,8 @@ def write_verdict(d: Json) -> str:
     mostly = f", mostly at {label_term(terms[0])}" if terms else ""
     remain, left = (excess(e["rms_Eo"], noise["rms_Eo"]) for e in (before, after))
     clearly = 0.05 * noise["rms_Eo"]
-    rest = f"{number(left, 2)} Eo" if left > clearly else "less than the noise"
-    other = f"the other {number(remain, 2)} Eo" if remain > clearly else "the systematic part of it"
+    rest = f"{number(left)} Eo" if left > clearly else "less than the noise"
+    other = f"the other {number(remain)} Eo" if remain > clearly else "the systematic part of it"
     it = "it" if len(d["found"]) == 1 else "them"
     falls = f"With {it} the error falls from {format_error(before)} to {format_error(after)} Eo"
     if not after["rms_Eo"] < before["rms_Eo"] * (1.0 - 1e-6):
@@ -387,7 +387,7 @@ def _suggest_own_effect(u: Json) -> Sections:
     if not u["expression"]:
         return ()
     sentences = [
-        "To make the strongest term an effect of your own, put this line into `effects` in model.toml, then add it:"
+        "To make the strongest term an effect of your own, put this line into effects = [...] of model.toml, then add it:"
     ]
     if u.get("needs"):
         sentences.append(f"The flight then needs further columns: {join_names(list(u['needs']))}.")
@@ -397,16 +397,19 @@ def _suggest_own_effect(u: Json) -> Sections:
 def write_motion(p: Json) -> str:
     """The effects that a motion would separate, from the JSON of a proposal."""
     if not p["separates"]:
-        return f"no motion within the limits separates {p['effect']} from {p['rival']} (at best {number(p['separation_then'], 2)} σ)"
+        return (
+            f"No sinusoid about one axis within the limits separates {p['effect']} from {p['rival']} (at best"
+            f" {number(p['separation_then'], 2)} σ)."
+        )
     size = (
         f"{number(p['amplitude'] / 9.80665e-3)} mg"
         if p["unit"] == "m/s^2"
         else f"{number(math.degrees(p['amplitude']) * 3600)} deg/h"
     )
     return (
-        f"to separate {p['effect']} from {p['rival']}: {number(p['duration_s'])} s of {p['axis']} = {size} at"
+        f"To separate {p['effect']} from {p['rival']}: {number(p['duration_s'])} s of {p['axis']} = {size} at"
         f" {number(p['frequency_Hz'])} Hz ({p['frequency_over_spin']:g} times the spin), {number(p['separation_now'], 2)} →"
-        f" {write_promise(p['separation_then'], p['separation_spread'])} σ"
+        f" {write_promise(p['separation_then'], p['separation_spread'])} σ."
     )
 
 

@@ -112,9 +112,9 @@ def probability(log10_p: float | None) -> str:
 
 
 def equate_probability(log10_p: float | None) -> str:
-    """The same after its symbol: ``= 0.03``, ``< 10⁻¹⁶``."""
+    """The same after its symbol, in one line: ``p = 0.03``, ``p < 10⁻¹⁶``."""
     text = probability(log10_p)
-    return text if text.startswith("<") else f"= {text}"
+    return f"p{NO_BREAK}{'' if text.startswith('<') else f'={NO_BREAK}'}{text}"
 
 
 def plain(x: float, digits: int = 6) -> str:

@@ -101,18 +101,18 @@ class Curves:
 
 @dataclass(frozen=True)
 class Bar:
-    """A bar: its label and value, the level that noise alone would give, and other values marked next to it (NaN: none)."""
+    """A bar: its label and value, the level that noise alone would give, and another value that is marked (NaN: none)."""
 
     label: str
     value: float
     noise: float = float("nan")
     strong: bool = True
-    dots: tuple[float, ...] = ()
+    dot: float = float("nan")
 
 
 @dataclass(frozen=True)
 class Bars:
-    """A figure of lying bars; ``threshold`` is a dashed line with a text, ``dots`` names the marks."""
+    """A figure of lying bars; ``threshold`` is a dashed line with a text, ``dot`` says what is marked."""
 
     key: str
     caption: str
@@ -120,7 +120,7 @@ class Bars:
     axis: str
     log: bool = False
     threshold: tuple[float, str] | None = None
-    dots: tuple[str, ...] = ()
+    dot: str = ""
 
 
 @dataclass(frozen=True)
