@@ -120,7 +120,9 @@ def try_mapping(m: Loaded, path: Path, entries: Mapping[str, Any]) -> Json:
     try:
         text = write(entries)
         mapping = parse_mapping(text, UNWRITTEN)
-        return {"text": text, "error": None, "preview": _preview(m, path, mapping)}
+        preview, missing = _preview(m, path, mapping), [n for n in NEEDED if n not in mapping.channels]
+        need = UserError("every flight has these channels: choose their columns", where=", ".join(missing))
+        return {"text": text, "error": need.facts if missing else None, "preview": preview}
     except UserError as e:
         return {"text": text, "error": e.facts, "preview": []}
 

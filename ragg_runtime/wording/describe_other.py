@@ -159,9 +159,8 @@ def describe_compensation(r: Json, output: str) -> Sections:
     """The result of ``compensate``, written to a file."""
     d = r["demodulator"]
     lag = f", {number(d['latency_s'])} s late" if d["latency_s"] else ""
-    head = [
-        f"{f'{output}: ' if output else ''}parameters {FROM[r['calibration']]}; demodulator: {d['what']}{lag}."
-    ]
+    parameters = f"{output}: parameters" if output else "Parameters"
+    head = [f"{parameters} {FROM[r['calibration']]}; demodulator: {d['what']}{lag}."]
     if not r["converged"]:
         head.append("The calibration has NOT converged: do not rely on these values.")
     sections = [

@@ -40,7 +40,7 @@ export function applyView(main) {
     if (key === shown) return;
     shown = key;
     figures.hidden = !c;
-    if (c) fill(figures, pictureNode("compensated", { of: key }));
+    if (c) fill(figures, h("h2", {}, "Channels"), pictureNode("compensated", { of: key }));
   };
 
   const known = () => {

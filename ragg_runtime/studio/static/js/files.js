@@ -71,7 +71,7 @@ export function filesView(main) {
   const known = () => {
     const { state } = server;
     fill(now, h("h2", {}, "Open now"),
-      state && state.model ? h("p", {}, h("b", {}, state.model.name), " ", h("code", {}, state.model.path), state.model.notes.map((n) => h("p.note", {}, n))) : h("p.note", {}, "No model."),
+      state && state.model ? h("p", {}, h("b", {}, state.model.name), state.model.path === state.model.name ? null : [" ", h("code", {}, state.model.path)], state.model.notes.map((n) => h("p.note", {}, n))) : h("p.note", {}, "No model."),
       state && state.flights.length ? h("div.wide", {}, h("table.numbers", {}, h("thead", {}, h("tr", {}, h("th", {}, "flight"), h("th.n", {}, "samples"), h("th.n", {}, "rate, Hz"), h("th.n", {}, "duration, s"), h("th.n", {}, "not usable"), h("th", {}, "outputs"))),
         h("tbody", {}, state.flights.map((f) => h("tr", {}, h("th", { scope: "row" }, f.name, f.notes.map((n) => h("small.block", {}, n))), h("td.n", {}, counted(f.samples)), h("td.n", {}, number(f.rate_Hz, 4)), h("td.n", {}, number(f.duration_s, 4)), h("td.n", {}, String(f.samples - f.valid)), h("td", {}, f.outputs.join(", "))))))) : h("p.note", {}, "No flight."));
     if (folder) show(folder);
