@@ -227,9 +227,6 @@ FEWEST = 8  # recorded values that are needed to see how they come
 # share of the values of a column joined by lines that must follow each other at the same number of samples
 REGULAR = 0.99
 
-KINK = 0.1
-"""Second difference, over the usual one thereabouts, at an end of a gap that was filled by a line; next to an inflection it is small."""
-
 STRAIGHT = 1e-3
 """Second difference, over the usual one, below which three samples lie on one line: digits that were written make
 less, and of recorded values one in a thousand bends so little."""
@@ -344,11 +341,12 @@ def _find_repeated(x: Array, present: Mask, turning: bool) -> _Repeated | None:
     if held and max(r.stop + 1 - r.start for r in runs(equal)) < HELD * len(x):
         kept = present & ~np.r_[False, equal]
         return _Repeated("repeated", present & ~kept, float(np.median(np.diff(np.flatnonzero(kept)))))
-    joined = None if turning else _find_joined(x, present)  # the angle of a disc is a line
-    if joined is not None:
-        return joined
-    stuck = _find_stuck(x, present, equal, step or 0.0, turning)
-    filled = stuck if turning or coarse else stuck | _find_lines(x, present, step or 0.0)
+    bend = np.where(present[2:] & present[1:-1] & present[:-2], np.abs(np.diff(x, 2)), np.nan)
+    if not turning and (joined := _find_joined(present, bend)) is not None:
+        return joined  # the angle of a disc is a line
+    filled = stuck = _find_stuck(x, present, equal, step or 0.0, turning)
+    if not (turning or coarse):
+        filled = stuck | _find_lines(x, bend, step or 0.0)
     repeated = _Repeated("stuck" if np.array_equal(filled, stuck) else "interpolated", filled)
     return repeated if repeated.left_out.any() else None
 
@@ -369,20 +367,14 @@ def _find_lost_packets(axes: Sequence[Array], present: Mask) -> Mask:
     return lost
 
 
-def _find_joined(x: Array, present: Mask) -> _Repeated | None:
-    """Values recorded every so many samples, and joined by straight lines."""
-    pairs = present[1:] & present[:-1]
-    threes = pairs[1:] & pairs[:-1]
-    bend = np.where(threes, np.abs(np.diff(x, 2)), 0.0)
-    sharp = bend > STRAIGHT * float(np.sqrt(np.mean(bend**2)))
-    if not 0 < 3 * np.sum(sharp) <= 2 * np.sum(threes):
-        return None
-    recorded = np.flatnonzero(sharp) + 1
+def _find_joined(present: Mask, bend: Array) -> _Repeated | None:
+    """Values recorded every so many samples, and joined by straight lines: by the second differences (N - 2,), NaN at gaps."""
+    recorded = np.flatnonzero(bend > STRAIGHT * np.sqrt(np.mean(np.nan_to_num(bend) ** 2))) + 1
     spacing = int(np.median(np.diff(recorded))) if len(recorded) >= FEWEST else 1
-    first = recorded[len(recorded) // 2]
-    if spacing < 2 or np.mean(recorded % spacing == first % spacing) < REGULAR:
+    first = recorded[len(recorded) // 2] if spacing > 1 else 0
+    kept = np.arange(len(present)) % spacing == first % spacing
+    if spacing < 2 or np.mean(kept[recorded]) < REGULAR:
         return None
-    kept = np.arange(len(x)) % spacing == first % spacing
     return _Repeated("joined by straight lines", present & ~kept, float(spacing))
 
 
@@ -424,10 +416,9 @@ def _find_stuck(x: Array, present: Mask, equal: Mask, step: float, turning: bool
     return stuck
 
 
-def _find_lines(x: Array, present: Mask, step: float) -> Mask:
-    """(N,): samples on a line between others, which a column that bends far more reaches and leaves by a kink: gaps that were filled."""
+def _find_lines(x: Array, bend: Array, step: float) -> Mask:
+    """(N,): samples on a line between others, in a column that bends far more: gaps that were filled."""
     filled = np.zeros(len(x), dtype=np.bool_)
-    bend = np.where(present[2:] & present[1:-1] & present[:-2], np.abs(np.diff(x, 2)), np.nan)
     rough = bend[bend > 2 * step]
     finest = max(STRAIGHT * float(np.median(rough)) if len(rough) else 0.0, 2 * step)
     if np.mean(bend <= finest) > HELD:  # a table's ramps, or what is read seldom and unevenly: made of lines
@@ -435,11 +426,10 @@ def _find_lines(x: Array, present: Mask, step: float) -> Mask:
     # where a curve without noise bends the other way one sample is on a line, in single precision two by chance
     for run in runs(bend <= finest, 3):
         first, last = run.start, run.stop + 1
-        kinks = bend[[max(first - 1, 0), min(run.stop, len(bend) - 1)]]
         near = bend[max(first - LOCAL, 0) : last + LOCAL]
         usual = float(np.median(near[near > finest])) if np.any(near > finest) else np.inf
         off = np.abs(x[first : last + 1] - np.linspace(x[first], x[last], last - first + 1))
-        if np.any(kinks > KINK * usual) and np.max(off) <= finest < abs(x[last] - x[first]) / COARSE:
+        if np.max(off) <= finest < abs(x[last] - x[first]) / COARSE:
             bent = max(float(np.max(bend[run])), 2 * step, float(np.spacing(8 * np.max(np.abs(x)))))
             filled[first + 1 : last] |= len(x) * (bent / usual) ** (last - first - 1) < RARE
     return filled
