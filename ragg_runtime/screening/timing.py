@@ -44,6 +44,7 @@ SLIP_PARTS, SLIP_TURNS = 16, 4
 # shifts that are tried: about the tops of a cross-correlation, and on from there while less is left
 MOST_SHIFTS = 64
 LONGEST = 1 << 18  # samples of which a shift is estimated
+ORIGINS = ("zero", "first-sample")  # angle_origin of model.toml
 # angle at the start from which it is a mistake; smaller ones are a matter of calibration (spin-phase-offset)
 LEAST_PHASE = np.deg2rad(5.0)
 # turns by which the disc may be ahead where rows were lost, or behind where some were doubled, that are tried first
@@ -81,9 +82,8 @@ def propose_times(s: Sampler) -> list[Hypothesis]:
         hypotheses += _propose_spin(s)
     if turning and not (s.has_encoder and whole):
         hypotheses += _propose_phase(s)
-    if turning and not s.has_encoder:
-        hypotheses += _propose_origin(s)
-        hypotheses += _propose_losses(s) if whole else []
+    if turning and whole and not s.has_encoder:
+        hypotheses += _propose_losses(s)
     return hypotheses
 
 
@@ -138,37 +138,24 @@ def write_rate(f: float, duration: float) -> str:
     return next(x for x in texts if abs(float(x) - f) <= near)
 
 
-def _propose_origin(s: Sampler) -> list[Hypothesis]:
-    """The disc angle counted from the first sample in the place of t = 0, or the other way round."""
-    x = s.flight
-    start = find_start(x, s.instrument)
-    origin, other = "first-sample", "zero"
-    if start == float(x.time[0]) - (x.began or 0.0):
-        origin, other = other, origin
-    alternative = find_start(x, replace(s.instrument, angle_origin=origin))
-    phase = _find_angle(s, alternative) - _find_angle(s, start)
-    if abs(_wrap(phase)) < LEAST_PHASE:
-        return []
-    words = {"zero": "at t = 0", "first-sample": f"at the first sample (t = {x.time[0]:.6g} s)"}
-    what = f"the disc was at angle 0 {words[origin]}, not {words[other]}"
-    remedy = (
-        f'write angle_origin = "{origin}" under [model] of model.toml if that is so, else'
-        f' angle_origin = "{other}"; or record spin_angle'
-    )
-    return [Hypothesis(what, remedy, fit_rows(s.take(phase=phase)), kind="origin", calming=True)]
-
-
-def _find_angle(s: Sampler, start: float) -> float:
-    """The disc angle, rad, so many seconds after angle 0."""
-    return float(disc_angle(np.zeros(1), s.disc.spin_frequency, start)[0])
-
-
 def _propose_phase(s: Sampler) -> list[Hypothesis]:
+    """Another disc angle at the first sample: as counted from there in the place of t = 0, or the other way round; or any."""
     rows, round_about = s.rows(most=600), np.deg2rad(np.arange(0.0, 360.0, 10.0))
     best = _wrap(find_least(lambda a: _fit(s, rows, phase=a).misfit, round_about, np.deg2rad(0.05)))
     if abs(best) < LEAST_PHASE:
         return []
-    start = _find_angle(s, find_start(s.flight, s.instrument))
+    starts = [find_start(s.flight, replace(s.instrument, angle_origin=o)) for o in ORIGINS]
+    zero, first = (float(disc_angle(np.zeros(1), s.disc.spin_frequency, x)[0]) for x in starts)
+    by_zero = find_start(s.flight, s.instrument) == starts[0]
+    start, turn = (zero, first - zero) if by_zero else (first, zero - first)
+    if not s.has_encoder and abs(_wrap(best - turn)) < LEAST_PHASE:
+        words = ("at t = 0", f"at the first sample (t = {s.flight.time[0]:.6g} s)")
+        what = f"the disc was at angle 0 {words[by_zero]}, not {words[not by_zero]}"
+        remedy = (
+            f'write angle_origin = "{ORIGINS[by_zero]}" under [model] of model.toml if that is so, else'
+            f' angle_origin = "{ORIGINS[not by_zero]}"; or record spin_angle'
+        )
+        return [Hypothesis(what, remedy, fit_rows(s.take(phase=turn)), kind="origin", calming=True)]
     true, believed = (np.rad2deg(_wrap(a)) for a in (start + best, start))
     what = (
         f"the disc was at {true:.4g} degrees at the first sample, not at {believed:.4g}"
