@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 from scipy import ndimage
-from scipy.ndimage import binary_dilation, minimum_filter1d
+from scipy.ndimage import binary_dilation
 
 from ragg_runtime.base.errors import count
 from ragg_runtime.estimation.scores import STD_OF_MEDIAN
@@ -194,10 +194,7 @@ def _separate_glitches(x: Array) -> tuple[Mask, Array]:
             break
         off[at] = True
         y = bridge_gaps(x, ~off, smooth=True)
-    # what was only distorted by a neighbouring glitch stays
-    at = np.flatnonzero(off)
-    off[at] = np.abs(x[at] - y[at]) > 2 * _spread(y, at)
-    return off, bridge_gaps(x, ~off, smooth=True)
+    return off, y
 
 
 def _surround(x: Array, at: NDArray[np.intp], side: int) -> Array:
@@ -394,18 +391,16 @@ def _find_stuck(x: Array, present: Mask, equal: Mask, step: float, turning: bool
     inside = (x[first] != low) & (x[first] != high)
     sudden = np.minimum(moves[first], moves[last + 1]) > SUDDEN * np.median(moves[1:-1][~equal])
     finest = max(step, float(np.spacing(np.max(np.abs(x[present])))))
-    by_step = np.minimum(finest / np.maximum(_find_usual_moves(np.abs(np.diff(x)), present), finest), 1.0)
+    moving = pd.Series(np.where(present[1:] & present[:-1] & ~equal, moves[1:-1], np.nan))
+    usual = moving.groupby(np.arange(len(moving)) // LOCAL).transform("median").fillna(0.0).to_numpy()
+    by_step = finest / np.maximum(usual, finest)
     kept = inside | sudden
     first, last = first[kept], last[kept]
-    long = np.zeros(len(equal), dtype=np.bool_)
-    for a, b in zip(first, last, strict=True):
-        long[a:b] |= b - a + 1 >= BESIDE  # a run next to another is no evidence about the column
-    before = np.r_[0, np.cumsum(equal & ~long)]
+    before = np.r_[0, np.cumsum(equal)]
     reach = np.maximum(BESIDE, last - first)
     left, right = np.maximum(first - reach, 0), np.minimum(last + reach, len(equal))
     same = before[first] - before[left] + before[right] - before[last]
     chance = (same + 1) / (first - left + right - last + 2)
-    chance = np.where(last - first < 3, 1.0, chance)  # too few to count by
     expected = len(x) * np.minimum(chance, by_step[first]) ** (last - first)
     expected[np.maximum(moves[first], moves[last + 1]) <= 2.5 * step] = np.inf
     for k in np.flatnonzero(expected < np.where(x[first] == 0.0, RARE_ZEROS, RARE)):
@@ -445,17 +440,6 @@ def _find_lost(x: Array, present: Mask, stuck: Mask) -> Mask:
         alike = find_short_runs(present & (x == value), WIDEST_SPIKE)
         lost |= alike & (len(runs(alike)) > 1)
     return lost
-
-
-def _find_usual_moves(moves: Array, present: Mask) -> Array:
-    """(N,): the least of the median moves, other than 0, in a sample's own block and the two beside it; ``moves`` (N - 1,)."""
-    size = min(LOCAL, len(moves))
-    pairs = present[1:] & present[:-1]
-    moving = pd.Series(np.where(pairs & (moves > 0.0), moves, np.nan))
-    sizes = [len(b) for b in np.array_split(moves, len(moves) // size)]
-    usual = moving.groupby(np.repeat(np.arange(len(sizes)), sizes)).median().fillna(0.0)
-    least = minimum_filter1d(usual.to_numpy(), 3, mode="nearest")
-    return np.asarray(np.repeat(least, sizes)[np.r_[0 : len(moves), len(moves) - 1]], dtype=np.float64)
 
 
 def _make_flags(repeated: Sequence[tuple[str, _Repeated]], flight: Flight) -> list[Flag]:
