@@ -378,11 +378,10 @@ def _read_columns(
         if (e.factor, e.offset) != (1.0, 0.0):
             read = replace(read, values=read.values * e.factor + e.offset)
         columns.append(read)
-    has_time = np.isfinite(columns[0].values) if times else np.zeros(0, dtype=np.bool_)
-    lost = int(np.sum(~has_time))
-    if 0 < lost < len(has_time):
-        notes.append(f"{count(lost, 'row')} without a time left out")
-        columns = [replace(c, values=c.values[has_time]) for c in columns]
+    lost = np.isnan(columns[0].values) if times else np.zeros(0, dtype=np.bool_)
+    if lost.any() and not lost.all():
+        notes.append(f"{count(int(np.sum(lost)), 'row')} without a time left out")
+        columns = [replace(c, values=c.values[~lost]) for c in columns]
     return replace(table, columns=tuple(columns), notes=(*table.notes, *notes))
 
 
@@ -453,9 +452,7 @@ def choose_tables(
         where=where,
         found=", ".join(parts[:12]) + (" ..." if len(parts) > 12 else "") or None,
         expected=part or "vectors of one length in one place, or in groups of equal structure",
-        remedy="choose one in a mapping: [file] part = ..."
-        if alike
-        else 'save tables and objects of MATLAB as structures: table2struct(t, "ToScalar", true)',
+        remedy="choose one in a mapping: [file] part = ...; save a table of MATLAB as a structure, by table2struct",
     )
 
 

@@ -63,7 +63,6 @@ SI_UNITS: Mapping[str, str] = MappingProxyType(
 # most samples in a row that are a spike; a longer excursion is the signal, a longer stretch without samples a gap
 WIDEST_SPIKE = 3
 
-
 SAME_RECORD = "the same record as {}: it would count twice"
 # the note of a segment of time, s, that the user has left out
 LEFT_OUT = "left out by hand: {:g} s to {:g} s"

@@ -338,12 +338,13 @@ def _find_repeated(x: Array, present: Mask, turning: bool) -> _Repeated | None:
     if held and max(r.stop + 1 - r.start for r in runs(equal)) < HELD * len(x):
         kept = present & ~np.r_[False, equal]
         return _Repeated("repeated", present & ~kept, float(np.median(np.diff(np.flatnonzero(kept)))))
-    bend = np.where(present[2:] & present[1:-1] & present[:-2], np.abs(np.diff(x, 2)), np.nan)
+    bend = _find_bends(x, present, 2)
     if not turning and (joined := _find_joined(present, bend)) is not None:
         return joined  # the angle of a disc is a line
     filled = stuck = _find_stuck(x, present, equal, step or 0.0, turning)
     if not (turning or coarse):
-        filled = stuck | _find_lines(x, bend, step or 0.0)
+        fourth = _find_bends(x, present, 4)
+        filled = stuck | _find_curves(x, bend, step or 0.0, 1) | _find_curves(x, fourth, step or 0.0, 3)
     repeated = _Repeated("stuck" if np.array_equal(filled, stuck) else "interpolated", filled)
     return repeated if repeated.left_out.any() else None
 
@@ -411,22 +412,36 @@ def _find_stuck(x: Array, present: Mask, equal: Mask, step: float, turning: bool
     return stuck
 
 
-def _find_lines(x: Array, bend: Array, step: float) -> Mask:
-    """(N,): samples on a line between others, in a column that bends far more: gaps that were filled."""
+def _find_bends(x: Array, present: Mask, order: int) -> Array:
+    """(N - order,): sizes of the differences of an order, NaN where a sample lacks."""
+    whole = np.convolve(present, np.ones(order + 1), "valid") > order
+    return np.where(whole, np.abs(np.diff(x, order)), np.nan)
+
+
+def _find_curves(x: Array, bend: Array, step: float, degree: int) -> Mask:
+    """(N,): samples on a line between others, or on a cubic as splines have, in a column that bends far more: gaps that were filled.
+
+    ``bend`` are its differences of the next ``degree``, which such curves do not have.
+    """
     filled = np.zeros(len(x), dtype=np.bool_)
-    rough = bend[bend > 2 * step]
-    finest = max(STRAIGHT * float(np.median(rough)) if len(rough) else 0.0, 2 * step)
+    resolution = 2**degree * step  # what rounding makes of them at most
+    rough = bend[bend > resolution]
+    finest = max(STRAIGHT * float(np.median(rough)) if len(rough) else 0.0, resolution)
     if np.mean(bend <= finest) > HELD:  # a table's ramps, or what is read seldom and unevenly: made of lines
         return filled
     # where a curve without noise bends the other way one sample is on a line, in single precision two by chance
-    for run in runs(bend <= finest, 3):
-        first, last = run.start, run.stop + 1
+    for run in runs(bend <= finest, degree + 2):
+        first, last = run.start, run.stop + degree
         near = bend[max(first - LOCAL, 0) : last + LOCAL]
         usual = float(np.median(near[near > finest])) if np.any(near > finest) else np.inf
-        off = np.abs(x[first : last + 1] - np.linspace(x[first], x[last], last - first + 1))
-        if np.max(off) <= finest < abs(x[last] - x[first]) / COARSE:
-            bent = max(float(np.max(bend[run])), 2 * step, float(np.spacing(8 * np.max(np.abs(x)))))
-            filled[first + 1 : last] |= len(x) * (bent / usual) ** (last - first - 1) < RARE
+        along = np.linspace(-1.0, 1.0, last - first + 1)
+        off = np.abs(x[first : last + 1] - np.polyval(np.polyfit(along, x[first : last + 1], degree), along))
+        if np.max(off) <= finest < np.ptp(x[first : last + 1]) / COARSE:
+            # fourth differences of a slow column are those of its digits: as small as any thereabouts
+            least = np.min(near[near > finest], initial=np.inf)
+            digits = float(np.spacing(8 * np.max(np.abs(x))) if degree == 1 else least)
+            bent = max(float(np.max(bend[run])), resolution, digits)
+            filled[first + 1 : last] |= len(x) * (bent / usual) ** (run.stop - run.start) < RARE
     return filled
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
@@ -195,8 +196,10 @@ def test_readings_that_did_not_arrive_are_left_out() -> None:
     x[[500, 3000, 3001]] = 0.0
     x[1000:3000:400] = 0.7  # a code within the range
     x[4999:5051] = np.linspace(x[4999], x[5050], 52).round(9)
+    kept, gap = np.r_[5900:6000, 6040:6140], np.arange(6000, 6040)
+    x[gap] = CubicSpline(kept, x[kept])(gap).round(9)
     flight = leave_out_repeated(Flight(TIME, {"a_y": x}, {}))
-    lost = np.r_[500, 1000:3000:400, 3000, 3001, 5000:5050]
+    lost = np.r_[500, 1000:3000:400, 3000, 3001, 5000:5050, gap]
     assert np.array_equal(np.flatnonzero(~flight.valid), np.union1d(held, lost))
     coarse = np.round(rng.standard_normal((3, N)))
     knots = np.r_[0, np.sort(rng.random(90)) * 599, 600]
