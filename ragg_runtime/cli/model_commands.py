@@ -176,7 +176,7 @@ def simulate(
         m.instrument, hidden, mapping=api.mapping_of(m, mapping), no_gradient=not gradient, **options
     )
     io.write_flight(flight, output)
-    text = f"{one_line(output)}: {len(flight.time)} samples at {flight.rate:g} Hz"
+    text = f"{one_line(output)}: {len(flight.time)} samples at {numbers.hertz(flight.rate)}"
     result = {"output": output, "samples": len(flight.time), "rate_Hz": flight.rate, "effects": list(hidden)}
     conclude(result, describe.say_plainly(text), make_source(m))
 

@@ -83,18 +83,13 @@ def compute_measured(w: PreparedFlight) -> Array:
     return combine_output(w.observation, w.observation.data)
 
 
-@dataclass(frozen=True)
-class AmplitudeSpectrum:
-    """One-sided amplitude density over frequency, Hz and unit/sqrt(Hz)."""
-
-    frequency: Array
-    density: Array
-
-
 def estimate_spectrum(
     x: Array, valid: NDArray[np.bool_], rate: float, points: int = 260
-) -> AmplitudeSpectrum | None:
-    """Welch spectrum over the valid segments of 32 samples and more, averaged to ``points`` steps of log frequency, or ``None``."""
+) -> tuple[Array, Array] | None:
+    """Frequencies, Hz, and one-sided amplitude densities, unit/sqrt(Hz), averaged to ``points`` steps of log frequency.
+
+    By Welch's method over the valid segments of 32 samples and more; ``None`` where there is none.
+    """
     parts = derivative.runs(valid, 32)
     if not parts:
         return None
@@ -107,15 +102,10 @@ def estimate_spectrum(
         total += p * (r.stop - r.start)
     psd = total / sum(r.stop - r.start for r in segments)
     # The lowest bin holds the rest of the mean.
-    return _bin_frequencies(f[2:], psd[2:], points)
-
-
-def _bin_frequencies(f: Array, psd: Array, points: int) -> AmplitudeSpectrum:
-    edges = np.geomspace(f[0] * 0.999, f[-1] * 1.001, points + 1)
-    which = np.digitize(f, edges)
-    bins = np.unique(which)
-    mean = np.array([[np.mean(f[which == k]), np.mean(psd[which == k])] for k in bins])
-    return AmplitudeSpectrum(mean[:, 0], np.sqrt(mean[:, 1]))
+    f, psd = f[2:], psd[2:]
+    which = np.digitize(f, np.geomspace(f[0] * 0.999, f[-1] * 1.001, points + 1))
+    means = np.array([[np.mean(f[which == k]), np.mean(psd[which == k])] for k in np.unique(which)])
+    return means[:, 0], np.sqrt(means[:, 1])
 
 
 def compute_noise_density(w: PreparedFlight, k_ggi: float, spin: float, f: Array) -> Array:
@@ -197,7 +187,7 @@ def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
     for n, w, k, name in _list_worst(f, lines[0][1]):
         r = w.observation.record
         spectra = [(label, estimate_spectrum(x[n] / k, r.valid, r.rate)) for label, x in lines]
-        curves = [Curve(label, s.frequency, s.density, _role(label)) for label, s in spectra if s is not None]
+        curves = [Curve(label, *s, _role(label)) for label, s in spectra if s is not None]
         if not curves:
             continue
         grid, spin = curves[0].x, abs(r.spin_frequency)
@@ -326,12 +316,12 @@ def describe_record(f: Fitted) -> list[tuple[str, str]]:
     """(name, value) of what was recorded and what was fitted."""
     records = [(o if o.thin is None else o.thin.whole).record for o in f.observations]
     samples, valid = (sum(len(r.time) for r in records), sum(int(np.sum(r.valid)) for r in records))
-    text = f"{numbers.fixed(samples, 0)} at {numbers.number(records[0].rate, 4)} Hz"
+    text = f"{numbers.fixed(samples, 0)} at {numbers.hertz(records[0].rate)}"
     if valid < samples:
         text += f", {numbers.fixed(samples - valid, 0)} of them not usable"
     thin = {o.record.rate for o in f.observations if o.thin is not None}
     if thin:
-        text += f"; thinned to {numbers.number(min(thin), 4)} Hz without loss of information"
+        text += f"; thinned to {numbers.hertz(min(thin))} without loss of information"
     return [
         ("flights", numbers.join_names([numbers.clean(o.name) for o in f.observations])),
         ("duration", numbers.seconds(sum(float(r.time[-1]) + 1.0 / r.rate for r in records))),
@@ -339,7 +329,7 @@ def describe_record(f: Fitted) -> list[tuple[str, str]]:
         ("output", f.observations[0].recorded.words),
         ("effects in the model", numbers.join_names([e.id for e in f.model.effects]) or "none"),
         ("k_ggi", f"{numbers.number(f.k_ggi, 4)} V/Eo"),
-        ("spin", f"{numbers.number(f.instrument.spin_frequency, 4)} Hz"),
+        ("spin", numbers.hertz(f.instrument.spin_frequency)),
     ]
 
 

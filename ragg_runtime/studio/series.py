@@ -355,10 +355,10 @@ def draw_spectra(s: State, a: Asked) -> dict[str, Any]:
             lines[name] = spectrum
     if not lines:
         raise UserError("no segment without gaps is long enough for a spectrum")
-    grid = next(iter(lines.values())).frequency
+    grid = next(iter(lines.values()))[0]
     return {
         "frequency": grid.tolist(),
-        "lines": {k: x.density.tolist() for k, x in lines.items()},
+        "lines": {k: density.tolist() for k, (_, density) in lines.items()},
         "noise": panels.compute_noise_density(v.prepared, v.k_ggi, r.spin_frequency, grid).tolist(),
         "spin_Hz": abs(r.spin_frequency),
     }

@@ -154,7 +154,8 @@ def describe_comparison(
     usual = [("nominal", e["nominal"]), ("calibrated", e["calibrated"]), ("held out", e["holdout"])]
     sentences = [
         *([write_comparison_headline(c)] if judged else []),
-        f"{write_flights(flights)}: {numbers.fixed(c['samples'], 0)} samples at {number(c['rate_Hz'])} Hz; {write_effects(c['effects'])}.",
+        f"{write_flights(flights)}: {numbers.fixed(c['samples'], 0)} samples at {numbers.hertz(c['rate_Hz'])};"
+        f" {write_effects(c['effects'])}.",
         *([f"Note: {c['reason']!s}."] if c["converged"] and c["reason"] else []),
     ]
     sections = [

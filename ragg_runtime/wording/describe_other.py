@@ -318,7 +318,7 @@ def _tabulate_trends(parameters: Sequence[Json]) -> Section:
 
 def describe_next_motion(r: Json, output: str) -> Sections:
     """The result of ``next-motion``, written to a file."""
-    flown = f"{number(r['duration_s'])} s at {number(r['rate_Hz'])} Hz"
+    flown = f"{number(r['duration_s'])} s at {numbers.hertz(r['rate_Hz'])}"
     head = f"{output}: {len(r['sinusoids'])} sinusoids, {flown}"
     if "channels" in r:
         now, then = r["channels"]["now"], r["channels"]["planned"]
@@ -355,9 +355,8 @@ def describe_flight_file(f: Json) -> Sections:
 def _describe_record(r: Json) -> list[Section]:
     facts = [f"{numbers.fixed(r['rows'], 0)} rows"]
     if r["rate_Hz"] is not None:
-        facts.append(
-            f"{number(r['rate_Hz'], 5)} Hz, {numbers.seconds(r['duration_s'])} from {number(r['start_s'], 4)} s on"
-        )
+        lasts = f"{numbers.seconds(r['duration_s'])} from {number(r['start_s'], 4)} s on"
+        facts.append(f"{numbers.hertz(r['rate_Hz'])}, {lasts}")
     if r["origin"]:
         facts.append(f"time 0 is {r['origin']}")
     text = [f"{'; '.join(facts)}."]

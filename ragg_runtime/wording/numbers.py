@@ -265,6 +265,11 @@ def seconds(x: float) -> str:
     return f"{number(x / 60.0)}{THIN}min" if x < 7200.0 else f"{number(x / 3600.0)}{THIN}h"
 
 
+def hertz(x: float) -> str:
+    """A sampling rate or a spin rate, the same wherever it is shown: ``16 Hz``, ``99.998 Hz``."""
+    return f"{plain(x, 5)}{THIN}Hz"
+
+
 def parameter(name: str) -> str:
     """A parameter of model.toml as it is written: ``dK1_dT`` is dK1/dT."""
     return re.sub(r"^(d[A-Za-z0-9]+)_(d[A-Za-z])", r"\1/\2", clean(name))

@@ -68,6 +68,9 @@ export function maths(text) {
 }
 
 
+/** A rate: at most five digits, and no zeros at the end. */
+export const hertz = (x) => String(Number(x.toPrecision(5)));
+
 /** Three significant digits, a true minus sign. */
 export function number(x, digits = 3) {
   if (x === null || x === undefined || Number.isNaN(x)) return "–";

@@ -1,6 +1,6 @@
 // The linked figures of one flight: one window of time, one band of frequencies, one term; what is marked in one is marked in all.
 import { ask, doing, Refused, series, spectrogram } from "./api.js";
-import { calm, counted, fill, h, keys, number, pictureNode } from "./dom.js";
+import { calm, counted, fill, h, hertz, keys, number, pictureNode } from "./dom.js";
 import { frame, heatTable } from "./drawings.js";
 import { look, on, server, view } from "./store.js";
 import { overview, ramp, spectrogramPlot, spectrumLines, spectrumPlot, timePlot } from "./curves.js";
@@ -324,7 +324,7 @@ const KEYS = {
 /** Which segment of the flight is shown, in words. */
 export const windowText = () => {
   const f = flight();
-  return f ? `${number(limits()[0], 4)} – ${number(limits()[1], 4)} s of ${number(f.duration_s, 4)} s at ${number(f.rate_Hz, 3)} Hz` : "";
+  return f ? `${number(limits()[0], 4)} – ${number(limits()[1], 4)} s of ${number(f.duration_s, 4)} s at ${hertz(f.rate_Hz)} Hz` : "";
 };
 
 export const choose = (label, names, chosen, take) => h("select", { "aria-label": label, onchange: (e) => take(Number(e.target.value)) }, names.map((name, k) => h("option", { value: String(k), selected: k === chosen }, name)));

@@ -1,6 +1,6 @@
 // Choose or drop files: model directories, test sheets, flights, below the folders that were named at the start.
 import { ask, doing, post, Refused, trouble, upload } from "./api.js";
-import { calm, counted, fill, h, number, s } from "./dom.js";
+import { calm, counted, fill, h, hertz, number, s } from "./dom.js";
 import { look, on, server, view } from "./store.js";
 
 const SIZE = (b) => (b > 1e9 ? `${number(b / 1e9)} GB` : b > 1e6 ? `${number(b / 1e6)} MB` : b > 1e3 ? `${number(b / 1e3)} kB` : `${b} B`);
@@ -73,7 +73,7 @@ export function filesView(main) {
     fill(now, h("h2", {}, "Open now"),
       state && state.model ? h("p", {}, h("b", {}, state.model.name), state.model.path === state.model.name ? null : [" ", h("code", {}, state.model.path)], state.model.notes.map((n) => h("p.note", {}, n))) : h("p.note", {}, "No model."),
       state && state.flights.length ? h("div.wide", {}, h("table.numbers", {}, h("thead", {}, h("tr", {}, h("th", {}, "flight"), h("th.n", {}, "samples"), h("th.n", {}, "rate, Hz"), h("th.n", {}, "duration, s"), h("th.n", {}, "not usable"), h("th", {}, "outputs"))),
-        h("tbody", {}, state.flights.map((f) => h("tr", {}, h("th", { scope: "row" }, f.name, f.notes.map((n) => h("small.block", {}, n))), h("td.n", {}, counted(f.samples)), h("td.n", {}, number(f.rate_Hz, 4)), h("td.n", {}, number(f.duration_s, 4)), h("td.n", {}, String(f.samples - f.valid)), h("td", {}, f.outputs.join(", "))))))) : h("p.note", {}, "No flight."));
+        h("tbody", {}, state.flights.map((f) => h("tr", {}, h("th", { scope: "row" }, f.name, f.notes.map((n) => h("small.block", {}, n))), h("td.n", {}, counted(f.samples)), h("td.n", {}, hertz(f.rate_Hz)), h("td.n", {}, number(f.duration_s, 4)), h("td.n", {}, String(f.samples - f.valid)), h("td", {}, f.outputs.join(", "))))))) : h("p.note", {}, "No flight."));
     if (folder) show(folder);
     const [foreign] = state && !state.status.job && !state.status.error ? state.unread : [];
     if (foreign && foreign !== asked) mappingPane(columns, (asked = foreign), trouble);
