@@ -194,8 +194,8 @@ class Detectable:
     size: float
     unit: str
 
-    def __str__(self) -> str:
-        return f"{self.name} = {self.size:.3g} {self.unit}"
+    def as_json(self) -> dict[str, object]:
+        return {"effect": self.effect, "name": self.name, "three_sigma": self.size, "unit": self.unit}
 
 
 def list_detectable(f: Fitted, problem: ProjectedProblem) -> list[Detectable]:

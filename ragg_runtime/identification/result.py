@@ -173,7 +173,7 @@ class Diagnosis:
             "holds_until_s": None if self.change is None else self.change.until,
             "holds_until_flight": None if self.change is None else self.change.flight,
             "next_motion": [p.as_json() for p in self.next_motion],
-            "detectable": [{"effect": s.effect, "three_sigma": str(s)} for s in self.sizes],
+            "detectable": [s.as_json() for s in self.sizes],
         }
 
 

@@ -9,7 +9,6 @@ D^12, D^34, D^1234 (Eq. 18-19).
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -55,18 +54,10 @@ BAND = CUTOFF  # Hz up to which the demodulated channels hold the gradient
 DRAWN = CUTOFF + WIDTH / 2  # Hz up to which they are drawn: beyond it the low-pass leaves nothing
 
 
-@dataclass(frozen=True)
-class SeriesEnvelope:
-    """A series in ``POINTS`` segments: middle (s), minimum, maximum and rms of the valid samples (NaN: none)."""
-
-    time: Array
-    low: Array
-    high: Array
-    rms: Array
-
-
-def decimate(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POINTS) -> SeriesEnvelope:
-    """Decimate (N,) samples to at most ``points`` columns of ``LEAST`` samples or more, without losing an extreme."""
+def find_envelope(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POINTS) -> tuple[Array, ...]:
+    """A series (N,) in at most ``points`` segments of ``LEAST`` samples or more: middle (s), minimum, maximum and rms of the valid
+    samples (NaN: none).
+    """
     edges = np.unique(np.linspace(0, len(x), min(points, max(1, len(x) // LEAST)) + 1).astype(np.intp))
     starts = edges[:-1]
     count = np.add.reduceat(valid.astype(float), starts)
@@ -75,7 +66,7 @@ def decimate(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POIN
     high = np.maximum.reduceat(np.where(valid, x, -np.inf), starts)
     rms = np.sqrt(np.add.reduceat(np.where(valid, x, 0.0) ** 2, starts) / np.maximum(count, 1.0))
     middle = 0.5 * (time[starts] + time[edges[1:] - 1])
-    return SeriesEnvelope(middle, *(np.where(empty, np.nan, v) for v in (low, high, rms)))
+    return middle, *(np.where(empty, np.nan, v) for v in (low, high, rms))
 
 
 def compute_measured(w: PreparedFlight) -> Array:
@@ -168,9 +159,9 @@ def plot_blocks(f: Fitted, lines: Lines, *, envelope: bool = False) -> Curves:
             steps.append(Curve(label, edges, rms, _role(label), "steps"))
         ends = (float(edges[0]), float(edges[-1]))
         if envelope:
-            e = decimate(r.time, lines[-1][1][n] / k, r.valid)
-            band = Curve("min-max", e.time, e.low, "envelope", "band", e.high)
-            around = Curve("± rms", e.time, e.rms, width=0.9), Curve("_", e.time, -e.rms, width=0.9)
+            time, low, high, rms = find_envelope(r.time, lines[-1][1][n] / k, r.valid)
+            band = Curve("min-max", time, low, "envelope", "band", high)
+            around = Curve("± rms", time, rms, width=0.9), Curve("_", time, -rms, width=0.9)
             axes.append(Axes((band, *around), "residual, Eo", name, ends, level, share=1.3))
         axes.append(
             Axes(tuple(steps), "rms, Eo", "" if envelope else name, ends, level, signed=False, share=0.85)
@@ -231,8 +222,8 @@ def _draw_channel(label: str, time: Array, x: Array) -> Curve:
     """A line; its envelope where it has more points than can be drawn."""
     if len(x) <= MOST_POINTS:
         return Curve(label, time, x, _role(label), width=0.8)
-    e = decimate(time, x, np.isfinite(x), MOST_POINTS // 2)
-    return Curve(label, e.time, e.low, _role(label), "band", e.high)
+    middle, low, high, _ = find_envelope(time, x, np.isfinite(x), MOST_POINTS // 2)
+    return Curve(label, middle, low, _role(label), "band", high)
 
 
 def plot_harmonics(f: Fitted, residuals: Sequence[Array]) -> Bars | None:

@@ -279,7 +279,7 @@ def show_effects(d: Diagnosis) -> list[Json]:
                 "after_Eo": r.after.rms_Eo,
                 "holdout_Eo": r.after_holdout.rms_Eo,
                 "testable": r.test.rank > 0 and r.effect in linear,
-                "seen_from": [str(s) for s in d.sizes if s.effect == r.effect],
+                "seen_from": [describe.write_size(s.as_json()) for s in d.sizes if s.effect == r.effect],
                 "values": [[describe.label_parameter(p), describe.format_value(p)] for p in best],
                 "indistinguishable": list(r.indistinguishable_from),
             }

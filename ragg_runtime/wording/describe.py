@@ -419,13 +419,10 @@ def write_promise(sigmas: float, spread: float) -> str:
     return number(sigmas) if spread < 0.05 * sigmas else numbers.plus_minus(sigmas, spread)
 
 
-def _write_size(text: str) -> str:
-    """``dK1/dT = 8.4 × 10⁻⁹ 1/K`` of the JSON's ``dK1_dT = 8.39e-09 1/K``."""
-    match = re.fullmatch(r"(\S+) = ([-+.\de]+) (.*)", text)
-    if match is None:
-        return text
-    name, value, unit = match.groups()
-    return f"{numbers.parameter(name)}{numbers.NO_BREAK}={numbers.NO_BREAK}{numbers.with_unit(number(float(value), 2), unit)}"
+def write_size(s: Json) -> str:
+    """``dK1/dT = 8.4 × 10⁻⁹ 1/K``: the least size of a parameter that a record would have shown."""
+    size = numbers.with_unit(number(s["three_sigma"], 2), s["unit"])
+    return f"{numbers.parameter(s['name'])}{numbers.NO_BREAK}={numbers.NO_BREAK}{size}"
 
 
 def _list_untestable(d: Json) -> Sections:
@@ -433,7 +430,7 @@ def _list_untestable(d: Json) -> Sections:
     silent = tuple((str(n["effect"]), str(n["why"])) for n in d["not_testable"])
     sizes: dict[str, list[str]] = {}
     for s in d["detectable"]:
-        sizes.setdefault(s["effect"], []).append(_write_size(str(s["three_sigma"])))
+        sizes.setdefault(s["effect"], []).append(write_size(s))
     sections = []
     if silent:
         summary = f"{count(len(silent), 'effect')} of the catalogue cannot be tested on this record"
