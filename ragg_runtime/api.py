@@ -37,7 +37,6 @@ from ragg_runtime.identification.parameters import Estimates, ParameterValue
 from ragg_runtime.identification.result import Diagnosis, heed_flags
 from ragg_runtime.identification.strong import choose_start
 from ragg_runtime.instrument.instrument import EffectSetting
-from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.model_toml import add_effect, remove_effect
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
 from ragg_runtime.io import Flight
@@ -309,7 +308,7 @@ def _estimate_instant(m: Loaded, effect: str, flights: Sequence[Flight]) -> floa
     return next((p.value for p in estimates), 0.0)
 
 
-def _list_quantities(parameters: Sequence[ParameterValue], count: int = PAPER.size) -> dict[str, RawQuantity]:
+def _list_quantities(parameters: Sequence[ParameterValue], count: int) -> dict[str, RawQuantity]:
     """Calibrated parameters of an effect as they are written to model.toml, ``count`` accelerometers."""
     values: dict[str, RawQuantity] = {}
     for name in dict.fromkeys(p.name for p in parameters):

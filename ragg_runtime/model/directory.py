@@ -184,7 +184,7 @@ def create_model_dir(
     text: str,
     *,
     generated: Mapping[str, str],
-    history: tuple[HistoryStep, ...] = (),
+    history: tuple[HistoryStep, ...],
     mapping: str | None = None,
 ) -> ModelDir:
     """Make a model directory, whole or not at all; UserError if ``path`` is not empty or ``text`` is no good model.toml."""

@@ -102,14 +102,9 @@ class Record:
         return disc_angle(self.time, self.spin_frequency, self.start)
 
     @cached_property
-    def demodulation_angle(self) -> Array:
-        """(N,) rad: half the angle of the gradient's carriers."""
-        return self.phi if self.phase == 0.0 else self.phi + self.phase / 2
-
-    @cached_property
     def quadratures(self) -> tuple[Array, Array]:
         """Cosine and sine, (N,), of the gradient's carriers: G_out holds T_1 sin + T_2 cos."""
-        double = 2 * self.demodulation_angle
+        double = 2 * (self.phi + self.phase / 2)
         return np.asarray(np.cos(double)), np.asarray(np.sin(double))
 
     @cached_property

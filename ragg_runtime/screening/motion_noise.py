@@ -79,23 +79,17 @@ def measure_noise(x: Array, present: Mask) -> MotionNoise:
     The floor is an upper bound, as motion may have one, too.
     """
     step = find_step(x[present]) or 0.0
-    bands = np.array_split(_measure_spectrum(x, present).density[2:-1], BANDS)
+    bands = np.array_split(_measure_spectrum(x, present)[0][2:-1], BANDS)
     lowest, next_one = sorted(float(np.mean(b)) for b in bands if len(b))[:2]
     floor = float(np.sqrt(0.5 * lowest)) if next_one < FLAT * lowest else 0.0
     return MotionNoise(max(step / float(np.sqrt(12.0)), floor), step)
 
 
-@dataclass(frozen=True)
-class _Spectrum:
-    """One-sided density (m,) at frequencies ``f`` (m,), 1/sample, smoothed, and its relative standard deviation."""
+def _measure_spectrum(x: Array, present: Mask) -> tuple[Array, float]:
+    """One-sided density (m,) of a column (N,), per cycle per sample, smoothed, and its relative standard deviation.
 
-    f: Array
-    density: Array
-    scatter: float
-
-
-def _measure_spectrum(x: Array, present: Mask) -> _Spectrum:
-    """Of a column (N,) of which some samples are ``present``: by all stretches in which a few at most are missing at a time."""
+    By all stretches of samples that are ``present`` in which a few at most are missing at a time.
+    """
     whole = present | find_short_runs(~present, WIDEST_SPIKE)
     lengths = np.array([r.stop - r.start for r in runs(whole)])
     window = WINDOW
@@ -105,7 +99,7 @@ def _measure_spectrum(x: Array, present: Mask) -> _Spectrum:
     share = np.array([r.stop - r.start for r in parts], dtype=np.float64)
     density = np.average([_average_windows(filled[r], window) for r in parts], axis=0, weights=share)
     smoothed = np.convolve(np.pad(density, 1, mode="edge"), TRIANGLE, mode="valid")
-    return _Spectrum(fft.rfftfreq(window), smoothed, SCATTER * float(np.sqrt(window / np.sum(share))))
+    return smoothed, SCATTER * float(np.sqrt(window / np.sum(share)))
 
 
 def _average_windows(x: Array, window: int) -> Array:
@@ -185,21 +179,24 @@ def predict_true(x: Array, present: Mask, std: float, rows: slice = slice(None))
     It is B C^-1 x, C the covariance of the measured column, B that of the true one with it: with the ends and gaps that the record has.
     """
     prediction = np.array(x)
-    spectrum = _measure_spectrum(x, present)
+    density, scatter = _measure_spectrum(x, present)
+    white = 2.0 * std**2  # one-sided
+    ratio = np.where(density > white * (1.0 + SURE * scatter), density / white, 1.0)
     wanted = np.arange(len(x))[rows]
     for block in np.array_split(wanted, -(-len(wanted) // BLOCK)):
         there = block[present[block]]
         if len(there) > 2:
-            prediction[block] = _predict_block(x[there], there - block[0], len(block), std, spectrum)
+            prediction[block] = _predict_block(x[there], there - block[0], len(block), std, ratio)
     return prediction
 
 
-def _predict_block(x: Array, at: Index, count: int, std: float, q: _Spectrum) -> Array:
-    """(count,): the prediction for a block of which samples x (n,) at some rows are there."""
-    white = 2.0 * std**2  # one-sided, per cycle per sample
-    certain = q.density > white * (1.0 + SURE * q.scatter)
+def _predict_block(x: Array, at: Index, count: int, std: float, ratio: Array) -> Array:
+    """(count,): the prediction for a block of which samples x (n,) at some rows are there.
+
+    ``ratio`` (m,): of the density to that of the noise, at even frequencies up to the Nyquist frequency.
+    """
     size = fft.next_fast_len(2 * count, real=True)
-    S = np.interp(fft.rfftfreq(size), q.f, np.where(certain, q.density / white, 1.0))
+    S = np.interp(fft.rfftfreq(size), np.linspace(0.0, 0.5, len(ratio)), ratio)
 
     def filter_by(gain: Array, v: Array) -> Array:
         whole = np.zeros(size)

@@ -341,13 +341,10 @@ def _correct_clock(s: Sampler) -> Flight:
         x = replace(x, notes=tuple(n for n in x.notes if not n.endswith(WAS_SET)))
     recorded = fit_rows(s.take())
     even = s.with_flight(replace(x, time=instants, began=(x.began or 0.0) + float(instants[0] - x.time[0])))
-    # times by the count are even: what that is worth where stamps jitter says nothing about a clock
-    least = min(recorded.misfit, fit_rows(even.take()).misfit) if steps and worst > EVEN else recorded.misfit
-    several = [steps, *([c] for c in steps if len(steps) > 1)] if steps else []
-    clocks = [(subset, _count_times(x, subset, first, step)) for subset in several]
-    if len(several) > 1:
+    clocks = [(c, _count_times(x, c, first, step)) for c in ([steps, *([c] for c in steps)] if steps else [])]
+    if len(steps) > 1:
         clocks.append((steps, _count_times(x, steps, *fit_clock_put_right(x.time, steps))))
-    gains = [least - fit_rows(s.with_flight(flight).take()).misfit for _, flight in clocks]
+    gains = [recorded.misfit - fit_rows(s.with_flight(flight).take()).misfit for _, flight in clocks]
     gain = max(gains, default=0.0)
     if INDEPENDENT * gain > CLOCK:
         jumps, flight = clocks[gains.index(gain)]

@@ -37,8 +37,6 @@ SLIP_ROWS, SWITCH, MOST_SLIPS = 800, 30.0, 4
 """Rows on which slips of one recorder against another are looked for; what a change of the lag costs, from a third to three times of
 which finds the same (docs/contributors/decisions.md); most of them in a record."""
 
-# times that lags are followed again by the model as fitted with those of the time before, and with lags beside them
-ROUNDS = 4
 # most parts of a record whose lags are looked for, and turns of the disc in each: a slip must fill one
 SLIP_PARTS, SLIP_TURNS = 16, 4
 # shifts that are tried: about the tops of a cross-correlation, and on from there while less is left
@@ -314,16 +312,14 @@ def _propose_slips(s: Sampler) -> list[Hypothesis]:
     if not fits:
         return []
     _, x, rows, late = min(fits, key=lambda one: one[0])
-    for _ in range(ROUNDS):
-        beside = [
-            s.rows(int(rows[k]), int(rows[k + 1]) + 1, SLIP_ROWS) for k in np.flatnonzero(np.diff(late))
-        ]
-        more = np.union1d(rows, np.concatenate([rows, *beside])).astype(np.intp)
-        near = sorted({0, *(int(k) + d for k in np.unique(late) for d in (-2, -1, 0, 1, 2))})
-        reach = x.reach(near, n)
-        more = more[(more >= reach) & (more < n - reach)]
-        late = late[np.minimum(np.searchsorted(rows, more), len(rows) - 1)]
-        rows, late = more, next(_follow_lags(s, more, near, x, late))
+    # once more, by the model as fitted with these lags, with more rows and lags beside them
+    beside = [s.rows(int(rows[k]), int(rows[k + 1]) + 1, SLIP_ROWS) for k in np.flatnonzero(np.diff(late))]
+    near = sorted({0, *(int(k) + d for k in np.unique(late) for d in (-2, -1, 0, 1, 2))})
+    reach = x.reach(near, n)
+    more = np.union1d(rows, np.concatenate([rows, *beside])).astype(np.intp)
+    more = more[(more >= reach) & (more < n - reach)]
+    late = late[np.minimum(np.searchsorted(rows, more), len(rows) - 1)]
+    rows, late = more, next(_follow_lags(s, more, near, x, late))
     slips = [
         (float(s.flight.time[rows[k]]), *late[k - 1 : k + 1].tolist())
         for k in np.flatnonzero(np.diff(late)) + 1

@@ -261,21 +261,21 @@ class Tensor:
         return float(np.sqrt(np.mean(self.closure**2))) if self.closure.size else float("nan")
 
 
+_ENTRIES = np.array([1.0, 2.0, 2.0, 1.0, 2.0, 1.0])  # of the matrix that each component is
+
+
 def project_components(first: Array, second: Array) -> Array:
     """(2, 6): inline and cross of a disc with these axes (3,), by the six components."""
     inline = np.outer(first, first) - np.outer(second, second)
     cross = (np.outer(first, second) + np.outer(second, first)) / 2
-    i, k = np.triu_indices(3)
-    return np.array([inline[i, k], cross[i, k]]) * np.where(i == k, 1.0, 2.0)
+    upper = np.triu_indices(3)
+    return np.asarray(np.array([inline[upper], cross[upper]]) * _ENTRIES)
 
 
 def spread_across(axes: tuple[Axis, Axis], inline: Array, cross: Array) -> Array:
     """(6, N): the tensor across a disc's two axes that it sees as these channels (N,); in their unit."""
-    first, second = (np.array(a, dtype=np.float64) for a in axes)
-    one = (np.outer(first, first) - np.outer(second, second)) / 2
-    other = np.outer(first, second) + np.outer(second, first)
-    upper = np.triu_indices(3)
-    return np.asarray(np.outer(one[upper], inline) + np.outer(other[upper], cross))
+    inline_seen, cross_seen = project_components(*(np.array(a, dtype=np.float64) for a in axes)) / _ENTRIES
+    return np.asarray(np.outer(inline_seen / 2, inline) + np.outer(2 * cross_seen, cross))
 
 
 # the six components by xx, xy, xz, yy, yz: zz = -(xx + yy)

@@ -183,7 +183,7 @@ def interpolate_even(x: Sequence[Array], at: Array, *, integral: bool = False) -
 DEGREES = (5, 7, 9, 11, 13)
 
 
-def smooth_slope(x: Array, half: int, order: int, degree: int = DEGREES[0]) -> Array:
+def smooth_slope(x: Array, half: int, order: int, degree: int) -> Array:
     """First or second derivative per sample, (N,), by polynomials through ``half`` samples on either side.
 
     Towards an end the polynomial is that through the last 2 ``half`` + 1 samples. The operations and their order are
