@@ -245,7 +245,7 @@ def _draw_matrix(plot: Matrix) -> str:
     ax.set_xticks(range(count), names, rotation=90)
     ax.set_yticks(range(count), names)
     ax.set(xlim=(-0.6, count - 0.4), ylim=(count - 0.4, -0.6), aspect="equal")
-    ax.tick_params(length=0)
+    ax.tick_params(length=0, labelsize=8)  # two dozen names below each other
     ax.grid(False)
     _add_legend(ax, 2)
     return _write_svg(fig, plot.key, plot.caption)
