@@ -59,10 +59,6 @@ _FACTORS, _OFFSETS = ("scale_factor", "scale", "slope", "conversion"), ("add_off
 # what NetCDF writes where nothing was written, by type (netcdf.h: NC_FILL_FLOAT ...)
 _DEFAULT_FILL = {"f4": 2.0**123 * 0.9375, "f8": 2.0**123 * 0.9375, "i4": -2147483647, "i2": -32767}
 
-HDF5_MAGIC = b"\x89HDF\r\n\x1a\n"
-
-_DIMENSION = "This is a netCDF dimension but not a netCDF variable"
-
 
 def make_tables(tree: Tree, place: str = "") -> list[DataTable]:
     """The tables of a tree of arrays and of its branches, from the outermost on.
@@ -499,7 +495,10 @@ def _is_column(data: h5py.Dataset) -> bool:
         return False
     if kind == "O" and h5py.check_string_dtype(data.dtype) is None:
         return False  # references and sequences
-    if _DIMENSION in write_cell(data.attrs.get("NAME")) or "MATLAB_object_decode" in data.attrs:
+    if (
+        "a netCDF dimension but not a" in write_cell(data.attrs.get("NAME"))
+        or "MATLAB_object_decode" in data.attrs
+    ):
         return False  # nor tables and other objects of MATLAB
     return not data.shape or _is_narrow(data.shape) or data.dtype.names is not None
 
@@ -560,7 +559,7 @@ def _read_pickled_names(value: object) -> list[str]:
 def read_matlab(path: Path) -> list[DataTable]:
     """The vectors of a MATLAB file, and its structures of vectors; units in a structure ``units``."""
     with path.open("rb") as stream:
-        if stream.read(10).startswith((b"MATLAB 7.3", HDF5_MAGIC)):
+        if stream.read(10).startswith((b"MATLAB 7.3", b"\x89HDF")):
             return read_hdf5(path)
     from scipy.io import loadmat, whosmat  # slow to import, and only this format needs it
 

@@ -220,9 +220,12 @@ def _parse_time(raw: Mapping[str, Any], form: Any, null: Null, where: str) -> Ti
     if origin is not None and origin.tzinfo is None:
         origin = origin.replace(tzinfo=UTC)
     unit: str = _take(raw, "unit", str, where, "")
+    hertz = 1.0
     if rate is not None:
-        unit, rate = "s", float(read_si(read_quantity(rate, where, count=1), "Hz", 9.8, where)[0])
-    return TimeEntry(names, written, unit, rate or 1.0, origin, null + _read_null(raw, where))
+        unit, hertz = "s", float(read_si(read_quantity(rate, where, count=1), "Hz", 9.8, where)[0])
+    if hertz <= 0.0:
+        raise _refuse("the rate is not above zero", where, rate, 'rate = "16 Hz"')
+    return TimeEntry(names, written, unit, hertz, origin, null + _read_null(raw, where))
 
 
 def _read_axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:

@@ -92,10 +92,9 @@ class Grid:
     def gaps(self) -> list[dict[str, float]]:
         """Last instant before (``from_s``) and first after each gap (``to_s``), and the ``samples`` missing between them."""
         here, jumps = self.time[self.index], np.diff(self.index)
-        places = map(int, np.flatnonzero(jumps > 1))
         return [
             {"from_s": float(here[k]), "to_s": float(here[k + 1]), "samples": int(jumps[k]) - 1}
-            for k in places
+            for k in np.flatnonzero(jumps > 1).tolist()
         ]
 
 

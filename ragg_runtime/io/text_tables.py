@@ -49,7 +49,6 @@ TWO_ROWS = "the header spans two rows; they are joined"  # a note: of merged cel
 _LOOKED_AT = 600  # lines that are looked at to find the header and to separate numbers from text
 _CELL_OF_XML = 4  # bytes in memory for one of a sheet's XML: a cell of 25 bytes becomes an object of 100
 _NOT_CSV = "the file is not a table of comma-separated values"
-_GZIP = b"\x1f\x8b"
 _BLANKS = " \t"
 _REMARK = re.compile(r"^\s*(?:#|%|//|!|/(?=\s))+\s*")
 _LINE = re.compile(r"\s*(?:line|tie)[\s:]+(?=\S*\d)(\S+)\s*", re.IGNORECASE)
@@ -228,7 +227,7 @@ def _read_text(path: Path) -> tuple[bytes, list[str]]:
     """The file's text in UTF-8, unpacked, and notes."""
     try:
         data = path.read_bytes()
-        if data.startswith(_GZIP):
+        if data.startswith(b"\x1f\x8b"):  # gzip
             require_memory(path, int.from_bytes(data[-4:], "little"))  # its size unpacked, modulo 2^32
             data = gzip.decompress(data)
         encoding = json.detect_encoding(data)  # of UTF-16 with its mark or without

@@ -88,14 +88,13 @@ def write(entries: Mapping[str, Any]) -> str:
 
     time, columns = entries.get("time", {}), tomlkit.table()
     seconds = time.get("format", "seconds") == "seconds"
+    unit = table({"unit": "s", **time}, "unit") if seconds and not time.get("rate") else {}
     for row in entries.get("rows", []):
         if row.get("column") and row["column"] != UNKNOWN:
             entry = {k: v for k, v in row.items() if v != {"sign": 1, "scale": 1, "offset": 0}.get(k)}
             columns[row["channel"]] = tomlkit.inline_table()
             columns[row["channel"]].update(table(entry, "column", "unit", "sign", "scale", "offset"))
-    document: dict[str, Any] = {
-        "time": table(time, "column", "format") | (table({"unit": "s", **time}, "unit") if seconds else {})
-    }
+    document: dict[str, Any] = {"time": table(time, "column", "format", "rate") | unit}
     if seconds and (origin := _read_instant(time.get("origin"))):
         document["time"]["origin"] = origin
     document |= {"file": table(entries.get("file", {}), "line", "lines", "part"), "columns": columns}

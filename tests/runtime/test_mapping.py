@@ -89,10 +89,7 @@ def test_the_axes_turn_places_too() -> None:
     x, places = made(), {f"mass_{k}": np.arange(300.0) + n for n, k in enumerate("xyz")}
     head, tail = TEXT.split("[columns]")[0], TEXT.split("[axes]")[1]
     columns = [(n, v) for n, v in ({**x.channels, **x.outputs, **places}).items()]
-    units = {
-        n: "m" if n in places else "V" if n == "G_out" else "m/s^2" if n[0] == "a" else "rad/s"
-        for n, _ in columns
-    }
+    units = {n: x.units.get(n, "m") for n, _ in columns}
     lines = "".join(f'{n} = {{ column = "{n}", unit = "{u}" }}\n' for n, u in units.items())
     mapping = parse(f"{head}[columns]\n{lines}[axes]{tail}")
     flight = read_flight({"T": x.time, **dict(columns)}, G0, mapping=mapping)
@@ -148,6 +145,7 @@ def test_lines_become_flights(tmp_path: Path) -> None:
         ('unit = "s"', 'format = "gps"', ("two columns",)),
         ('unit = "s"', 'unit = "s"\norigin = "2026"', ("origin",)),
         ('unit = "s"', 'unit = "s"\nrate = "16 Hz"', ("rate", "no unit")),
+        ('unit = "s"', 'rate = "0 Hz"', ("rate", "above zero")),
         ("[axes]", "[axis]", ("unknown key", "axes")),
         ('column = "AN"', 'colum = "AN"', ("not named",)),
         ('column = "AN"', 'column = 3', ("column", "text")),
