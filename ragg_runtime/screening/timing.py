@@ -412,32 +412,25 @@ def find_path(costs: Array, switch: float) -> Index:
 
 
 def _list_lags(s: Sampler, first: int = 0, last: int | None = None, beside: int = 2) -> Sequence[int]:
-    """Samples by which the motion may be late in a segment: where the demodulated output resembles a_x + i a_y, or one of them, or,
-    at twice the spin rate, the square of the rates in the disc's plane, most; and so many samples ``beside``.
+    """Samples by which the motion may be late in a segment: where the output at the spin rate resembles a_x, or a_y, or a_x + i a_y, or
+    its mirror image, most; and so many samples ``beside``.
     """
     x, f = s.flight, abs(s.disc.spin_frequency)
     rows = np.arange(first, min(len(x) if last is None else last, first + LONGEST))
     n = len(rows)
     if not is_demodulable(x.rate) or (f > 0 and n < 3 * x.rate / f):
         return ()
-    carried, in_plane = _mix(s, rows)
-    rates = x.channels["omega_x"][rows] + 1j * x.channels["omega_y"][rows]
-    turned, taps = carried * np.exp(1j * s.take(rows).phi), low_pass(x.rate)
-
-    def prepare(z: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        slope = np.diff(convolve(z, taps, "same"))  # slow drifts resemble each other at any lag
-        return np.asarray(slope - np.mean(slope))
-
-    pairs = [(z, carried) for z in (in_plane, in_plane.real + 0j, in_plane.imag + 0j)]
+    output, motion = _mix(s, rows)
+    slopes = np.diff(
+        convolve(np.stack([output, motion.real + 0j, motion.imag + 0j]), low_pass(x.rate), "same")
+    )
+    slopes -= np.mean(slopes, axis=1, keepdims=True)  # and slow drifts resemble each other at any lag
+    along_x, along_y = (signal.correlate(z, slopes[0], method="fft") for z in slopes[1:])
+    likes = (along_x, along_y, along_x + 1j * along_y, along_x - 1j * along_y)
     lags = signal.correlation_lags(n - 1, n - 1)
     near = np.abs(lags) <= min(n // 4, int(FARTHEST * x.rate))
-    shifts: list[int] = []
-    for motion, output in (map(prepare, pair) for pair in (*pairs, (rates**2, turned))):
-        for other in (motion, np.conj(motion)):
-            like = np.abs(signal.correlate(other, output, method="fft"))
-            top = int(lags[near][np.argmax(like[near])])
-            shifts += [k for k in range(top - beside, top + beside + 1) if k not in shifts]
-    return shifts
+    tops = [int(lags[near][np.argmax(np.abs(like[near]))]) for like in likes]
+    return [*dict.fromkeys(k for top in tops for k in range(top - beside, top + beside + 1))]
 
 
 def _mix(s: Sampler, rows: Index) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
