@@ -230,7 +230,7 @@ def calibrate(
         if wider is None:  # or where it has not come to an optimum, which alone tells how wide
             break
         instrument, c = wider, fit(wider, start=c.p)
-    return (instrument, c) if c.excess <= QUIET else first
+    return (instrument, c) if c.converged and c.excess <= QUIET else first
 
 
 @one_thread
