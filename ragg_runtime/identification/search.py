@@ -109,19 +109,23 @@ class Evidence:
 
     def measure_chi2(self, o: Outcome) -> tuple[float, int]:
         """Chi-square that an outcome's effects explain of what the model leaves without them, and with how many coefficients."""
-        first = self.first
-        testable = [e for e in o.effects if e in first.problem.candidates]
+        first, last, rank = self.first, self.last, self._count_coefficients(o)
+        # beside a strong effect a step begins at an instant of its own
+        beside = [e for e in o.effects if e in last.chosen] if self.steps and o.extra else []
+        more, _ = last.problem.joint([last.chosen[e] for e in beside])
+        derived = [e for e in o.effects if e not in beside]
+        testable = [e for e in derived if e in first.problem.candidates]
         # the columns of each that are needed, by a linear test of the first stage
-        chosen, tests = {} if self.steps else self.last.chosen, first.problem.tests()
+        chosen, tests = {} if self.steps else last.chosen, first.problem.tests()
         linear, _ = first.problem.joint([chosen.get(e) or tests[e].which for e in testable])
-        rank = self._count_coefficients(o)
         remembers = any(e.memory is not None and e.id in o.effects for e in o.target.model.effects)
-        if o.extra or (linear < strong.STRONG and len(testable) == len(o.effects) and not remembers):
-            return linear, rank
+        weak = linear < strong.STRONG and len(testable) == len(derived) and not remembers
+        if weak or (o.extra and not self.steps):
+            return linear + more, rank
         # second orders of strong effects: what is left once they are derived into the model, by the noise of the model without them
         f, noise = o.target, first.fitted.calibration.noise
         left = calibration.fit(f.model, f.instrument, f.observations, noise=noise, start=f.calibration.p).chi2
-        return max(linear, first.problem.chi2 - left), rank
+        return max(linear, first.problem.chi2 - left) + more, rank
 
     def _count_coefficients(self, o: Outcome) -> int:
         """How many coefficients of an outcome's effects their tests need."""
