@@ -68,11 +68,6 @@ class Test:
         return weigh(self.chi2, self.rank, spread=inflation)
 
 
-def project(T: Array, onto: int) -> Array:
-    """The later columns with the first ``onto`` projected out."""
-    return T[onto:, onto:]
-
-
 WEAKEST = 0.3  # share of the floor of columns below which a direction of several is not tested
 
 
@@ -83,12 +78,6 @@ def find_basis(P: Array, columns: Sequence[int], floor: Array, weakest: float = 
         return P[:, []]
     U, s, _ = np.linalg.svd(P[:, testable], full_matrices=False)
     return np.asarray(U[:, s > max(weakest * np.max(floor[testable]), 1e-7 * s[0])])
-
-
-def measure_explained(P: Array, columns: Sequence[int], floor: Array) -> tuple[float, int]:
-    """(chi-square, rank) of the last column of P explained by ``columns`` of a norm above ``floor``."""
-    Q = find_basis(P, columns, floor)
-    return float(np.sum((Q.T @ P[:, -1]) ** 2)), Q.shape[1]
 
 
 def list_sub_blocks(columns: Sequence[tuple[int, Column]]) -> list[tuple[tuple[int, ...], int]]:

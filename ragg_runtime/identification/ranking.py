@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, combinations, product
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.scores import Error, finite
 from ragg_runtime.identification import likelihood_ratio
-from ragg_runtime.identification.likelihood_ratio import Test, list_ways, log_bayes
+from ragg_runtime.identification.likelihood_ratio import Test
 from ragg_runtime.identification.parameters import Estimates, ParameterValue
 from ragg_runtime.identification.selection import ProjectedProblem
 from ragg_runtime.identification.strong import AddedEffect, Stage
@@ -213,15 +213,9 @@ def list_detectable(f: Fitted, problem: ProjectedProblem) -> list[Detectable]:
     return rows
 
 
-# --- how probable each effect is: all sets of up to three effects, weighed by their evidence. With Zellner's prior
-# b ~ N(0, g (X'X)^-1) the evidence of a set S against the empty one is exact (A. Zellner 1986; F. Liang et al., J. Am. Stat. Assoc. 103,
-# 2008), log B_S(g) = chi2_S / 2 * g / (1 + g) - k_S / 2 * log(1 + g), with chi2_S what its k_S coefficients explain. g is averaged over
-# eight decades; each of E effects is present with probability 1/E (J. Scott and J. Berger, Ann. Stat. 38, 2010).
+# --- how probable each effect is, of all sets of up to three (``ProjectedProblem.sets``)
 
-LARGEST = 3  # most effects of a set
 HELD = 0.95  # probability that the credible set holds together
-# added to the inner products of all orthonormal blocks but the first: effects that coincide count once
-RIDGE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -240,12 +234,9 @@ class Probabilities:
         return Probabilities({e: p * share for e, p in self.of.items()}, credible)
 
 
-Weights = Mapping[frozenset[str], float]  # how probable sets of effects are, up to a common factor
-
-
 def weigh_effects(problem: ProjectedProblem, steps: Sequence[AddedEffect]) -> Probabilities:
     """The probabilities of the remaining effects, and of those in the model: equivalent alternatives share there."""
-    weights = weigh_sets(problem)
+    weights = problem.sets
     for t in steps:
         # one of them is sure to be present, each as probable as the others beforehand
         options, more = (t.effect, *t.alternatives), defaultdict[frozenset[str], float](float)
@@ -257,53 +248,6 @@ def weigh_effects(problem: ProjectedProblem, steps: Sequence[AddedEffect]) -> Pr
     sets = sorted((-w / total, tuple(sorted(s))) for s, w in weights.items())
     count = int(np.searchsorted(np.cumsum([-share for share, _ in sets]), HELD)) + 1
     return Probabilities({e: min(1.0, p) for e, p in of.items()}, tuple(s for _, s in sets[:count]))
-
-
-def weigh_sets(f: ProjectedProblem) -> Weights:
-    """All sets of up to :data:`LARGEST` of the problem's effects, weighed; in sets of several each is in its most probable way."""
-    ways = [
-        (e, w) for e in sorted(f.candidates) for w in list_ways(f.P, f.candidates[e], f.floor, weakest=0.0)
-    ]
-    names = [e for e, _ in ways]
-    effects = [*dict.fromkeys(names)]
-    odds = -float(np.log(max(1, len(effects) - 1)))  # of presence, with probability 1/E
-    weights = np.array([odds - np.log(w.count) - f.penalty.get(e, 0.0) for e, w in ways])
-    length = np.array([w.Q.shape[1] for _, w in ways], dtype=np.intp)
-    Q = np.concatenate([np.zeros((len(f.P), 0)), *(w.Q for _, w in ways)], axis=1)
-
-    def weigh_each(group: NDArray[np.intp]) -> Array:
-        chi2 = _measure_jointly(Q, f.P[:, -1], length, group)
-        return np.asarray(log_bayes(chi2, np.sum(length[group], axis=1)) + np.sum(weights[group], axis=1))
-
-    sets = [np.zeros((1, 0), dtype=np.intp), np.arange(len(ways), dtype=np.intp)[:, None]]
-    logs = [np.zeros(1), weigh_each(sets[1])]
-    best = [max((n for n, x in enumerate(names) if x == e), key=logs[1].__getitem__) for e in effects]
-    best = sorted(best, key=lambda n: -length[n])  # sets of one shape are worked on at once
-    for size in range(2, LARGEST + 1):
-        sets.append(np.array([*combinations(best, size)], dtype=np.intp).reshape(-1, size))
-        logs.append(weigh_each(sets[-1]))
-    log_weights = np.concatenate(logs)
-    sums = defaultdict[frozenset[str], float](float)
-    for members, weight in zip(
-        chain(*(x.tolist() for x in sets)), np.exp(log_weights - log_weights.max()).tolist(), strict=True
-    ):
-        sums[frozenset(names[n] for n in members)] += weight
-    return sums
-
-
-def _measure_jointly(Q: Array, y: Array, length: NDArray[np.intp], sets: NDArray[np.intp]) -> Array:
-    """Chi-square (n,) of data y explained by sets (n, size) of blocks of columns of Q; ``length``: columns of each block."""
-    start, G, d = np.cumsum(length) - length, Q.T @ Q, Q.T @ y
-    chi2, lengths = np.zeros(len(sets)), length[sets]
-    shapes = lengths @ (1 + np.max(length, initial=0)) ** np.arange(sets.shape[1])
-    for key in np.unique(shapes):
-        members = np.flatnonzero(shapes == key)
-        shape = lengths[members[0]]
-        begins = start[sets[members]].T[:, :, None]
-        at = np.concatenate([b + np.arange(k) for b, k in zip(begins, shape, strict=True)], axis=1)
-        inner = G[at[:, :, None], at[:, None]] + RIDGE * np.diag(np.arange(at.shape[1]) >= shape[0])
-        chi2[members] = np.sum(d[at] * np.linalg.solve(inner, d[at][..., None])[..., 0], axis=1)
-    return chi2
 
 
 def add_probability(r: Ranked, credence: Probabilities, columns: Container[str]) -> Ranked:

@@ -1,10 +1,12 @@
-"""Which effects: forward selection with swaps, on R factors alone."""
+"""Which effects: forward selection among sets of them, on R factors alone."""
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import chain, combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +18,7 @@ from ragg_runtime.estimation.regressors import Column, group_by_effect
 from ragg_runtime.estimation.scores import DISTINGUISHABLE, INDISTINGUISHABLE
 from ragg_runtime.estimation.whitening import PreparedFlight
 from ragg_runtime.identification import likelihood_ratio
-from ragg_runtime.identification.likelihood_ratio import Test, weigh
+from ragg_runtime.identification.likelihood_ratio import Test, list_ways, log_bayes, weigh
 
 Array = NDArray[np.float64]
 
@@ -25,7 +27,7 @@ FAMILY = false_alarms.CATALOGUE
 # the same for each effect beside the first: a chance companion would spoil what is found
 FURTHER = false_alarms.COMPANION
 MOST = 4  # most effects that are claimed at once
-# log evidence by which another effect must be better to take the place of a chosen one; ties do not go to and fro
+# log evidence by which another set of effects must be better to take the place of a chosen one
 SWAPPED = 2.0
 
 # log evidence (a factor of 1,100: 3 sigma beside 5) by which many coefficients may cost an effect that explains as much; with more it
@@ -34,6 +36,7 @@ AS_SURE = 7.0
 
 
 Blocks = Mapping[str, tuple[int, ...]]  # effects with the columns that each needs
+Weights = Mapping[frozenset[str], float]  # how probable sets of effects are, up to a common factor
 
 
 @dataclass(frozen=True)
@@ -60,7 +63,7 @@ class ProjectedProblem:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "norms", np.linalg.norm(self.T[:, self.n_base :], axis=0))
-        P = likelihood_ratio.project(self.T, self.n_base)
+        P = self.T[self.n_base :, self.n_base :]
         # with a positive diagonal: the signs of rows are rounding, and what is drawn of noise along them would change
         object.__setattr__(self, "P", P * np.where(np.diag(P) < 0.0, -1.0, 1.0)[:, None])
 
@@ -123,8 +126,13 @@ class ProjectedProblem:
     @cached_property
     def effective_count(self) -> float:
         """Number of independent tests that err as often as these, which are alike (:func:`likelihood_ratio.estimate_effective_number`)."""
-        effects = (likelihood_ratio.list_ways(self.P, c, self.floor) for c in self.candidates.values())
+        effects = (list_ways(self.P, c, self.floor) for c in self.candidates.values())
         return likelihood_ratio.estimate_effective_number([ways for ways in effects if ways], FAMILY)
+
+    @cached_property
+    def sets(self) -> Weights:
+        """How probable each set of up to :data:`LARGEST` effects is."""
+        return _weigh_sets(self)
 
     def significant(self, t: Test, family: float = FAMILY) -> bool:
         """Whether the test of an effect is significant over the family."""
@@ -133,7 +141,8 @@ class ProjectedProblem:
 
     def joint(self, blocks: Sequence[Sequence[int]]) -> tuple[float, int]:
         """(chi-square, rank) of the union of column blocks."""
-        return likelihood_ratio.measure_explained(self.P, [n for b in blocks for n in b], self.floor)
+        Q = likelihood_ratio.find_basis(self.P, [n for b in blocks for n in b], self.floor)
+        return float(np.sum((Q.T @ self.P[:, -1]) ** 2)), Q.shape[1]
 
 
 def is_significant(t: Test, count: float, family: float = FAMILY) -> bool:
@@ -144,7 +153,8 @@ def is_significant(t: Test, count: float, family: float = FAMILY) -> bool:
 def choose(f: ProjectedProblem, *, beside: bool = False) -> Blocks:
     """Effects that together account for what the model lacks, each with the columns that it needs, in the order of their choice.
 
-    Forward selection; after each addition every chosen effect may be swapped for a better one. ``beside``: others are in the model.
+    Forward selection; after each addition the most probable set of as many effects takes the place of what is chosen. ``beside``: others
+    are in the model.
     """
     chosen: Blocks = {}
     seen: set[frozenset[str]] = set()
@@ -152,30 +162,25 @@ def choose(f: ProjectedProblem, *, beside: bool = False) -> Blocks:
         seen.add(frozenset(chosen))
         level = FURTHER if chosen or beside else FAMILY
         tests = f.tests([*chosen])
-        best = _find_best({e: t for e, t in tests.items() if f.significant(t, level)})
-        if best is None:
+        significant = [e for e, t in tests.items() if f.significant(t, level)]
+        if not significant:
             break
-        more = _swap(f, {**chosen, best: tests[best].which})
-        if not chosen.keys() <= more.keys() and weigh_blocks(f, more) <= weigh_blocks(f, chosen):
-            break  # one that holds another as a special case, and is none the better for it
-        chosen = more
-    return _settle_blocks(f, chosen)
-
-
-def _find_best(tests: Mapping[str, Test]) -> str | None:
-    """The effect of the greatest evidence."""
-    return min(tests, key=lambda e: (-tests[e].log_b, e), default=None)
-
-
-def _swap(f: ProjectedProblem, chosen: Blocks) -> Blocks:
-    """The same, each of several effects given way to a better one."""
-    for old in tuple(chosen) if len(chosen) > 1 else ():
-        others = {e: which for e, which in chosen.items() if e != old}
-        conditional = f.tests([*others])
-        best = _find_best({e: t for e, t in conditional.items() if f.significant(t)})
-        if best is not None and conditional[best].log_b > conditional[old].log_b + SWAPPED:
-            chosen = {**others, best: conditional[best].which}
+        best = min(significant, key=lambda e: (-tests[e].log_b, e))
+        chosen = _choose_set(f, _settle_blocks(f, {**chosen, best: tests[best].which}))
     return chosen
+
+
+def _choose_set(f: ProjectedProblem, chosen: Blocks) -> Blocks:
+    """The most probable set of as many effects where it is plainly better, each of them significant beside the others."""
+    if not 1 < len(chosen) <= LARGEST:
+        return chosen
+    best = max((s for s in f.sets if len(s) == len(chosen)), key=lambda s: (f.sets[s], sorted(s)))
+    tests = {e: f.tests(sorted(best - {e}))[e] for e in sorted(best)}
+    if best == chosen.keys() or not all(f.significant(t, FURTHER) for t in tests.values()):
+        return chosen
+    surest = sorted(tests, key=lambda e: -tests[e].log_b)
+    instead = _settle_blocks(f, {e: tests[e].which for e in surest})
+    return instead if weigh_blocks(f, instead) > weigh_blocks(f, chosen) + SWAPPED else chosen
 
 
 def _settle_blocks(f: ProjectedProblem, blocks: Blocks) -> Blocks:
@@ -241,3 +246,60 @@ def list_testable(f: Fitted) -> list[str]:
         for e in f.model.candidates
         if e.kind == "deterministic" and e.searched and not any(e.missing(h) for h in have)
     ]
+
+
+# --- all sets of up to three effects, weighed by their evidence. With Zellner's prior
+# b ~ N(0, g (X'X)^-1) the evidence of a set S against the empty one is exact (A. Zellner 1986; F. Liang et al., J. Am. Stat. Assoc. 103,
+# 2008), log B_S(g) = chi2_S / 2 * g / (1 + g) - k_S / 2 * log(1 + g), with chi2_S what its k_S coefficients explain. g is averaged over
+# eight decades; each of E effects is present with probability 1/E (J. Scott and J. Berger, Ann. Stat. 38, 2010).
+
+LARGEST = 3  # most effects of a set
+# added to the inner products of all orthonormal blocks but the first: effects that coincide count once
+RIDGE = 1e-9
+
+
+def _weigh_sets(f: ProjectedProblem) -> Weights:
+    """All sets of up to :data:`LARGEST` of the problem's effects, weighed; in sets of several each is in its most probable way."""
+    ways = [
+        (e, w) for e in sorted(f.candidates) for w in list_ways(f.P, f.candidates[e], f.floor, weakest=0.0)
+    ]
+    names = [e for e, _ in ways]
+    effects = [*dict.fromkeys(names)]
+    odds = -float(np.log(max(1, len(effects) - 1)))  # of presence, with probability 1/E
+    weights = np.array([odds - np.log(w.count) - f.penalty.get(e, 0.0) for e, w in ways])
+    length = np.array([w.Q.shape[1] for _, w in ways], dtype=np.intp)
+    Q = np.concatenate([np.zeros((len(f.P), 0)), *(w.Q for _, w in ways)], axis=1)
+
+    def weigh_each(group: NDArray[np.intp]) -> Array:
+        chi2 = _measure_jointly(Q, f.P[:, -1], length, group)
+        return np.asarray(log_bayes(chi2, np.sum(length[group], axis=1)) + np.sum(weights[group], axis=1))
+
+    sets = [np.zeros((1, 0), dtype=np.intp), np.arange(len(ways), dtype=np.intp)[:, None]]
+    logs = [np.zeros(1), weigh_each(sets[1])]
+    best = [max((n for n, x in enumerate(names) if x == e), key=logs[1].__getitem__) for e in effects]
+    best = sorted(best, key=lambda n: -length[n])  # sets of one shape are worked on at once
+    for size in range(2, LARGEST + 1):
+        sets.append(np.array([*combinations(best, size)], dtype=np.intp).reshape(-1, size))
+        logs.append(weigh_each(sets[-1]))
+    log_weights = np.concatenate(logs)
+    sums = defaultdict[frozenset[str], float](float)
+    for members, weight in zip(
+        chain(*(x.tolist() for x in sets)), np.exp(log_weights - log_weights.max()).tolist(), strict=True
+    ):
+        sums[frozenset(names[n] for n in members)] += weight
+    return sums
+
+
+def _measure_jointly(Q: Array, y: Array, length: NDArray[np.intp], sets: NDArray[np.intp]) -> Array:
+    """Chi-square (n,) of data y explained by sets (n, size) of blocks of columns of Q; ``length``: columns of each block."""
+    start, G, d = np.cumsum(length) - length, Q.T @ Q, Q.T @ y
+    chi2, lengths = np.zeros(len(sets)), length[sets]
+    shapes = lengths @ (1 + np.max(length, initial=0)) ** np.arange(sets.shape[1])
+    for key in np.unique(shapes):
+        members = np.flatnonzero(shapes == key)
+        shape = lengths[members[0]]
+        begins = start[sets[members]].T[:, :, None]
+        at = np.concatenate([b + np.arange(k) for b, k in zip(begins, shape, strict=True)], axis=1)
+        inner = G[at[:, :, None], at[:, None]] + RIDGE * np.diag(np.arange(at.shape[1]) >= shape[0])
+        chi2[members] = np.sum(d[at] * np.linalg.solve(inner, d[at][..., None])[..., 0], axis=1)
+    return chi2

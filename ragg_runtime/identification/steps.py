@@ -102,7 +102,7 @@ def _find_best_edges(
         off = picked[n].copy()
         off[:, k : k + m] = 0.0
         before = fold([before, off])
-        P = likelihood_ratio.project(fold([before, after[len(edges) - n]]), k)
+        P = fold([before, after[len(edges) - n]])[k:, k:]
         for e, each in named.items():
             log_p = likelihood_ratio.test(P, each, floor, float(np.log(2 * BLOCKS))).log_p
             if e not in best or log_p < best[e][0]:

@@ -349,7 +349,7 @@ def _test_about_values(f: Fitted) -> dict[str, tuple[frozenset[str], Test]]:
         others = [n for n in range(f.n_base) if n not in columns]
         without = f.whole[:, -1] - f.whole[:, columns] @ f.to_nominal[columns]
         T = compute_r_factor(np.vstack([f.whole[:, [*others, *columns]].T, without]))
-        P = likelihood_ratio.project(T, len(others))
+        P = T[len(others) :, len(others) :]
         tested = [(k, c.columns[n]) for k, n in enumerate(columns)]
         test = likelihood_ratio.test(P, tested, np.full(P.shape[1], likelihood_ratio.TESTABLE))
         tests[effect] = frozenset(q.label for k, q in tested if k not in test.which), test
