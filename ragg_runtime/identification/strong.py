@@ -29,6 +29,7 @@ from ragg_runtime.estimation.fitted import (
     release_held,
 )
 from ragg_runtime.estimation.least_squares import compute_r_factor
+from ragg_runtime.estimation.observation import spread
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
 from ragg_runtime.identification import likelihood_ratio, selection
 from ragg_runtime.identification.likelihood_ratio import Test, weigh
@@ -46,6 +47,7 @@ STRONG = 2500.0
 # two
 NEAR = 10.0
 CONTENDERS = 3  # most effects that are tried in the model at each stage
+PARTS = 4  # segments of a long record, at most, on which contenders are tried before those that are left are tried on all of it
 
 
 class Extend(Protocol):
@@ -259,13 +261,15 @@ def find_impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
 class Contest:
     """Effects of a stage, each tried in the model by itself, with the ``fits`` that may still be made.
 
-    ``left``: what each leaves (:func:`score_fit`); ``arrived``: whether any fit came to an optimum.
+    ``left``: what each leaves (:func:`score_fit`) of all samples, or ``in_parts`` of a long record; ``arrived``: whether any fit came to an
+    optimum.
     """
 
     stage: Stage
     extend: Extend
     fits: int
     left: dict[str, float] = field(default_factory=dict)
+    in_parts: dict[str, float] = field(default_factory=dict)
     arrived: bool = False
 
     def add_strongest(self) -> AddedEffect | None:
@@ -276,7 +280,7 @@ class Contest:
         tests = {e: t for e, t in self.stage.problem.tests().items() if t.rank}
         while True:
             effect, alternatives = self._choose_best(tests)
-            if self.left and not self.arrived:
+            if (self.left or self.in_parts) and not self.arrived:
                 return None
             added = _add_to_model(self.stage, effect, alternatives, self.extend)
             self.fits -= 1
@@ -296,12 +300,13 @@ class Contest:
         columns = {e: len(problem.candidates[e]) for e in near}
         ways = {e: float(np.log(comb(n, min(tests[e].rank, n)))) for e, n in columns.items()}
         near = sorted(near, key=lambda e: (ways[e] - tests[e].weigh_alone(), e))
-        tried = near[:CONTENDERS]
+        tried = self._find_equal(near[:CONTENDERS])
         left = self._try_effects(tried) if len(tried) > 1 else dict.fromkeys(tried, 0.0)
         best = min(tried, key=lambda e: (left[e], e))
         # effects with the same signature are all of its group, however many they are
-        same = (e for e in near[CONTENDERS:] if abs(tests[e].chi2 - tests[best].chi2) < INDISTINGUISHABLE)
-        left |= self._try_effects([e for e in same if _as_sure(tests[e], tests[best])])
+        same = [e for e in near[CONTENDERS:] if abs(tests[e].chi2 - tests[best].chi2) < INDISTINGUISHABLE]
+        same = [e for e in same if _as_sure(tests[e], tests[best])]
+        left = self._try_effects([*tried, *same]) if same else left
         equal = {e for e in left if left[e] < left[best] + INDISTINGUISHABLE}
         effect = min((e for e in equal if equal.isdisjoint(problem.contains.get(e, ()))), key=near.index)
         as_near = {e for e in left if left[e] < left[effect] + INDISTINGUISHABLE}
@@ -310,14 +315,33 @@ class Contest:
             e for e in sorted(others) if e != effect and effect not in problem.contains.get(e, ())
         )
 
-    def _try_effects(self, ids: Sequence[str]) -> dict[str, float]:
+    def _find_equal(self, ids: list[str]) -> list[str]:
+        """Those of the effects that parts of a long record do not tell from the best of them: all of it can only tell more apart."""
+        if len(ids) == 1 or all(len(o.segments) <= PARTS for o in self.stage.fitted.observations):
+            return ids
+        left = self._try_effects(ids, in_parts=True)
+        return [e for e in ids if left[e] < min(left.values()) + INDISTINGUISHABLE]
+
+    def _try_effects(self, ids: Sequence[str], *, in_parts: bool = False) -> dict[str, float]:
         """What these leave."""
-        self.fits -= len(ids)
+        f, left = self.stage.fitted, self.left
+        if in_parts:
+            f, left = take_parts(f), self.in_parts
         for e in ids:
-            if e not in self.left:
-                self.left[e], converged = score_fit(self.stage.fitted, *self.stage.derive(e, self.extend))
+            if e not in left:
+                self.fits -= 1
+                left[e], converged = score_fit(f, *self.stage.derive(e, self.extend))
                 self.arrived |= converged
-        return {e: self.left[e] for e in ids}
+        return {e: left[e] for e in ids}
+
+
+def take_parts(f: Fitted) -> Fitted:
+    """A fit with a few segments of its observations, evenly spread, in their place."""
+    pairs = zip(f.observations, f.calibration.noise, strict=True)
+    parts = [(o.part(rows), noise) for o, noise in pairs for rows in spread(o.segments, PARTS)]
+    observations, noise = zip(*parts, strict=True)
+    rows = sum(int(np.sum(o.record.valid)) * len(o.series) for o in observations)
+    return replace(f, observations=observations, calibration=replace(f.calibration, noise=noise, rows=rows))
 
 
 def _add_to_model(stage: Stage, effect: str, alternatives: tuple[str, ...], extend: Extend) -> AddedEffect:

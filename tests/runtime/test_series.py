@@ -27,7 +27,7 @@ from ragg_runtime.estimation.regressors import (
     list_candidate_columns,
     make_point,
 )
-from ragg_runtime.identification import formula, omnibus, selection
+from ragg_runtime.identification import formula, omnibus, selection, strong
 from ragg_runtime.identification.comparison import Comparison, compare
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.selection import make_problem
@@ -395,6 +395,8 @@ def test_the_division_leaves_no_trace(long_flight, monkeypatch) -> None:
             assert getattr(b.whole, name) == pytest.approx(getattr(a.whole, name), rel=1e-8)
             assert getattr(b.held_out, name) == pytest.approx(getattr(a.held_out, name), rel=1e-8)
     np.testing.assert_allclose(parts.residuals()[0], whole.residuals()[0], atol=1e-9)
+    some = strong.take_parts(parts)  # on which contenders are tried first
+    assert some.calibration.rows < strong.score_fit(some, parts.model, s.sheet)[0] < parts.calibration.chi2
     a, b = (formula.propose_formulas(f, (), omnibus.search_residual(f)) for f in (whole, parts))
     assert b.searches[0].terms[0].term == a.searches[0].terms[0].term
     assert b.searches[0].terms[0].z == pytest.approx(a.searches[0].terms[0].z, rel=1e-4)  # single precision
