@@ -375,12 +375,7 @@ class Kept:
 
 
 def calibrate(
-    m: Loaded,
-    flights: Flights,
-    save: bool = False,
-    mapping: Path | str | None = None,
-    *,
-    drift: bool = False,
+    m: Loaded, flights: Flights, save: bool = False, mapping: Path | str | None = None, *, drift: bool = False
 ) -> Kept:
     """Fit the parameters of the model to flights.
 

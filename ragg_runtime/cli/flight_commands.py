@@ -50,11 +50,7 @@ else:
               help="frozen: as `ragg calibrate --save` saved it; self: fitted to these flights.")  # fmt: skip
 @frozen_option
 def compare(
-    model_dir: Path,
-    flights: Sequence[Path],
-    mapping: Path | None,
-    calibration: str,
-    frozen: bool,
+    model_dir: Path, flights: Sequence[Path], mapping: Path | None, calibration: str, frozen: bool
 ) -> None:
     """Show how far the model is from flights, and where."""
     m = load(model_dir)
@@ -309,9 +305,7 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
     """
     if form is None:
         raise UserError(
-            "choose what to export",
-            expected="--c, --numpy or --json",
-            remedy="see: ragg export --help",
+            "choose what to export", expected="--c, --numpy or --json", remedy="see: ragg export --help"
         )
     exported = api.contents(load(model_dir))
     files = api.write_export(exported, folder, form)

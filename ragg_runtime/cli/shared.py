@@ -72,11 +72,7 @@ PLACE = click.Path(path_type=Path)
 model_argument = click.argument("model_dir", type=PLACE)
 flights_argument = click.argument("flights", type=PLACE, nargs=-1, required=True)
 mapping_option = click.option(
-    "--map",
-    "mapping",
-    type=PLACE,
-    metavar="FILE",
-    help="Mapping of the flights' columns (see ragg map).",
+    "--map", "mapping", type=PLACE, metavar="FILE", help="Mapping of the flights' columns (see ragg map)."
 )
 frozen_option = click.option("--frozen", is_flag=True, help="The same as --calibration frozen.")
 
@@ -118,8 +114,7 @@ class Command(click.Command):
     def invoke(self, ctx: click.Context) -> Any:
         if sys.stdout is None:
             raise UserError(
-                "the result cannot be written: stdout is closed",
-                remedy="to discard it: > /dev/null",
+                "the result cannot be written: stdout is closed", remedy="to discard it: > /dev/null"
             )
         self._check_outputs(ctx)
         options = ("json_file", "report_file", "verbose")

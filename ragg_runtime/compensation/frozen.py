@@ -165,10 +165,7 @@ def measure_change(f: Fitted, saved: Saved) -> CalibrationChange:
     U, s, _ = np.linalg.svd(T[:n, :n] @ root, full_matrices=False)
     informed = s**2 >= INFORMED
     whitened = (U.T @ T[:n])[informed] / np.sqrt(1.0 + s[informed] ** 2)[:, None]
-    return CalibrationChange(
-        z=whitened[:, n],
-        signatures=whitened[:, :n],
-    )
+    return CalibrationChange(z=whitened[:, n], signatures=whitened[:, :n])
 
 
 def retest_change(

@@ -2,7 +2,7 @@
 
 A level that is taken as constant where it changes biases every test: noisy intervals weigh too much, and a
 term that is large where the noise is large looks significant. A noise whose level follows what is known is made white of
-unit variance by one factor per sample, before its filter or after it, whichever is likelier (``NoiseModel.level_first``).
+unit variance by one factor per sample, before its filter; or, where it is that of white noise upon a drift, by another filter.
 Whether the level follows something is asked by the studentised test of R. Koenker (J. Econometrics 17, 1981): the squares
 against groups of samples, with their own fourth moment, so that heavy tails are no evidence.
 """
@@ -17,15 +17,10 @@ from numpy.typing import NDArray
 from scipy import special
 
 from ragg_runtime.base import false_alarms
+from ragg_runtime.estimation.drift import Drift, Past
 from ragg_runtime.estimation.scores import log_sf
 from ragg_runtime.estimation.spectrum import MOST_LINES, Disturbance, Spectrum
-from ragg_runtime.io.record import (
-    ANGULAR_ACCELERATION,
-    ANGULAR_RATE,
-    GRADIENT,
-    SPECIFIC_FORCE,
-    is_disc_angle,
-)
+from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT, SPECIFIC_FORCE, is_disc_angle
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.fir import Floats, fill_gaps, filter_columns
 
@@ -118,11 +113,7 @@ def score_excess(gram: Array) -> tuple[float, float]:
     return float(np.sqrt(count) * left[0, 1] / np.sqrt(left[0, 0] * left[1, 1])), float(left[0, 0])
 
 
-def estimate_level(
-    white: Array,
-    quantities: Mapping[str, Array],
-    alternatives: Mapping[str, Array],
-) -> Level:
+def estimate_level(white: Array, quantities: Mapping[str, Array], alternatives: Mapping[str, Array]) -> Level:
     """The level of whitened residuals (N,) as a function of ``quantities``, (N,) each; ``time`` and ``phi`` have a meaning.
 
     Nothing is concluded once one of the ``alternatives``, variances (N,) that random effects would add, explains it best and more than
@@ -267,7 +258,8 @@ class NoiseModel:
     """The noise of an observation of m series (:mod:`noise_estimate`); :meth:`whiten` makes it white, of unit variance.
 
     It is noise of a spectrum for every whitened series, whose level may follow what is known from sample to sample, and lines. What
-    follows it is all of the noise (uniformly modulated noise: M. Priestley, J. R. Stat. Soc. B 27, 1965), or what is new in each sample.
+    follows it is all of the noise (uniformly modulated noise: M. Priestley, J. R. Stat. Soc. B 27, 1965), or the white noise upon a drift
+    (:mod:`drift`).
     The filters are causal and finite: linear, hence exact on columns however much larger than the noise they are, and a long record can
     be streamed through them. Samples that are not valid are interpolated, in data and columns alike, as the noise makes most likely
     (:func:`fir.fill_gaps`), and the filters start from rest: what the model explains it explains before and after; only the noise next to
@@ -279,9 +271,8 @@ class NoiseModel:
         Of every whitened series; taps of the filters, 1/V.
     level
         The noise level from sample to sample.
-    level_first
-        Whether the level multiplies the coloured noise and is divided out before the filters; or the white noise that a filter has
-        coloured, and is divided out after them.
+    drifts
+        Of every whitened series whose level is of the white noise upon a drift: whitened by these in the place of the filters.
     lines
         Those that are neither of the motion nor next to a multiple of the spin rate; they are projected out of data and columns.
     combinations
@@ -295,7 +286,7 @@ class NoiseModel:
     spectra: tuple[Spectrum, ...]
     filters: tuple[Array, ...]
     level: Level = field(default_factory=Level)
-    level_first: bool = False
+    drifts: tuple[Drift, ...] = ()
     lines: tuple[SpectralLine, ...] = ()
     combinations: Array | None = field(default=None, compare=False)
     disturbed: str | None = None
@@ -356,10 +347,6 @@ class NoiseModel:
         """(outputs,): how what counts so in the series (m,) counts in the whitened ones."""
         return w if self.combinations is None else self.combinations @ w
 
-    def taps(self, most: int) -> list[Array]:
-        """The beginnings of the filters, for terms that are searched through shorter ones."""
-        return [t[:most] for t in self.filters]
-
     def whiten(
         self,
         columns: Array,
@@ -376,10 +363,10 @@ class NoiseModel:
         columns: Array,
         valid: NDArray[np.bool_] | None,
         level: Array | float,
-        past: Array | None,
+        past: Sequence[Array | Past] | None,
         *,
         lead: int = 0,
-    ) -> tuple[Array, Array | None]:
+    ) -> tuple[Array, Sequence[Array | Past]]:
         """Columns of a segment of a flight, whitened, and what the filters need to go on after it.
 
         Parameters
@@ -399,26 +386,62 @@ class NoiseModel:
         """
         n = columns.shape[2]
         valid = np.ones(n, dtype=np.bool_) if valid is None else valid
-        level = np.broadcast_to(level, n)
         x = columns if self.combinations is None else np.matmul(self.combinations, columns)
-        x = self.divide(x, level, filtered=False)
-        if not valid.all():
-            x = np.stack([fill_gaps(x[:, k], valid, taps) for k, taps in enumerate(self.filters)], axis=1)
-        parts = []
-        for k, taps in enumerate(self.filters):
-            y = filter_columns(x[:, k], taps, None if past is None else past[:, k], lead)
-            y = self.divide(y, level[lead:], filtered=True)
-            parts.append(y if valid.all() else y[:, valid[lead:]])
-        white = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
-        if past is not None and n < self.memory:
-            x = np.concatenate([past, x], axis=2)
-        return white, x[:, :, -self.memory :] if self.memory else None
+        level = np.broadcast_to(level, n)
+        white, end = [], []
+        for k in range(self.outputs):
+            y, after = self.whiten_series(x[:, k], k, valid, level, None if past is None else past[k], lead)
+            white.append(y if valid.all() else y[:, valid[lead:]])
+            end.append(after)
+        return white[0] if len(white) == 1 else np.concatenate(white, axis=1), end
 
-    def divide(self, x: Floats, level: Array | float, *, filtered: bool) -> Floats:
-        """Series (..., N), before or after they are ``filtered``, over the level, if it is divided out there."""
-        if not self.uneven or filtered is self.level_first:
-            return x
-        return np.asarray(x / np.asarray(level, dtype=x.dtype))
+    def whiten_series(
+        self,
+        x: Floats,
+        output: int,
+        valid: NDArray[np.bool_] | None,
+        level: Array,
+        past: Floats | Past | None,
+        lead: int,
+    ) -> tuple[Floats | Array, Floats | Past]:
+        """Columns (n, N) of one whitened series, all of whose samples are taken as they are where ``valid`` is ``None``: (n, N - lead)."""
+        if self.drifts:
+            assert not isinstance(past, np.ndarray)
+            seen = np.ones(len(level), dtype=np.bool_) if valid is None else valid
+            return self.drifts[output].whiten(x, level, seen, past, lead)
+        assert not isinstance(past, Past)
+        taps = self.filters[output]
+        even = self._divide(x, level)
+        filled = even if valid is None else fill_gaps(even, valid, taps)
+        y = filter_columns(filled, taps, past, lead)
+        if past is not None and len(level) < len(taps) - 1:
+            filled = np.concatenate([past, filled], axis=1)
+        return y, filled[:, max(0, filled.shape[1] - len(taps) + 1) :]
+
+    def whiten_back(self, white: Array, weights: Array, valid: NDArray[np.bool_], level: Array) -> Array:
+        """(N,): whitened series (outputs, N) through the transposed filters, and added by ``weights`` (outputs,): the product with a
+        term of the output is that of the whitened term.
+        """
+        if self.drifts:
+            each = zip(self.drifts, weights, white, strict=True)
+            return np.asarray(sum(w * d.whiten_back(y, level, valid) for d, w, y in each))
+        total = np.zeros(white.shape[1])
+        for series, w, taps in zip(white, weights, self.filters, strict=True):
+            total += filter_columns(np.ascontiguousarray(series[None, ::-1]), np.asarray(w * taps))[0, ::-1]
+        return self._divide(total, level)
+
+    def measure_log_size(self, level: Array, valid: NDArray[np.bool_]) -> float:
+        """Sum of the logarithms of the standard deviations, V, of what is new in each valid sample (N,) of every whitened series."""
+        if self.drifts:
+            return sum(d.measure_log_size(level, valid) for d in self.drifts)
+        return float(
+            self.outputs * np.sum(np.log(level[valid]))
+            - np.sum(valid) * sum(np.log(t[0]) for t in self.filters)
+        )
+
+    def _divide(self, x: Floats, level: Array) -> Floats:
+        """Series (..., N) over the level."""
+        return np.asarray(x / np.asarray(level, dtype=x.dtype)) if self.uneven else x
 
     def line_columns(self, time: Array, series: int) -> Array:
         """(k, m, n): what the lines span at some times, s, each in one of the m ``series``."""

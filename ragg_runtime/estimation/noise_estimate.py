@@ -8,10 +8,11 @@ from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
+from scipy import fft, optimize
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import unknown_gradient
+from ragg_runtime.estimation.drift import Drift
 from ragg_runtime.estimation.least_squares import add_prior
 from ragg_runtime.estimation.noise import (
     Level,
@@ -22,12 +23,7 @@ from ragg_runtime.estimation.noise import (
     estimate_level,
     level_quantities,
 )
-from ragg_runtime.estimation.observation import (
-    ROWS,
-    Observation,
-    measure_information_per_sample,
-    spread,
-)
+from ragg_runtime.estimation.observation import ROWS, Observation, measure_information_per_sample, spread
 from ragg_runtime.estimation.regressors import LinearisationPoint
 from ragg_runtime.estimation.spectrum import (
     LOWEST,
@@ -108,15 +104,13 @@ def estimate_noise(
     means = average_residuals(at, o, _make_unit_noise(o, apart)) if slow else None
     noise = _estimate_spectra(parts, o, CONSTANT, means)
     level = _choose_level(parts, o, noise)
-    if (
-        level.parts
-    ):  # what is loud has been in the fit: of what is quiet columns have left more than the noise
+    if level.parts:
+        # what is loud has been in the fit: of what is quiet columns have left more than the noise
         parts = _fit_segments(at, o, apart, chosen, level)
         noise = _estimate_spectra(parts, o, level, means)
     noise = replace(noise, combinations=apart, lines=_list_lines(parts, o, level))
     if level.parts:
-        either = (replace(noise, level_first=x) for x in (False, True))
-        noise = max(either, key=lambda n: _compute_evidence(at, o, n, chosen))
+        noise = _choose_form(at, o, noise, chosen)
     events = [d.later(p.rows.start / o.record.rate) for p in parts for x in p.outputs for d in x.events]
     texts = describe_disturbances(events), describe_level(level)
     words = "; ".join(w for w in texts if w is not None) or None
@@ -352,24 +346,76 @@ def _choose_level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> 
     return estimate_level(join(z), quantities, alternatives)
 
 
+PLAIN = (
+    3.0  # logarithm of how much likelier a level of all noise must be than one of white noise upon a drift
+)
+
+
+def _choose_form(
+    at: LinearisationPoint, o: Observation, noise: NoiseModel, chosen: Sequence[slice]
+) -> NoiseModel:
+    """What a level multiplies: all of the noise, or the white noise upon a drift."""
+    drifting = _fit_drifts(at, o, noise, chosen)
+    all_of_it, white = (_compute_evidence(at, o, n, chosen)[0] for n in (noise, drifting))
+    return noise if all_of_it > white + PLAIN else drifting
+
+
+def _fit_drifts(
+    at: LinearisationPoint, o: Observation, noise: NoiseModel, chosen: Sequence[slice]
+) -> NoiseModel:
+    """Random walks beneath the white noise of the level, as strong as is likeliest.
+
+    Columns take most of what is slow: how strong it is the spectrum of their residual does not tell, but their evidence does.
+    """
+    samples = len(o.record.time)
+    decay = float(np.exp(-2 * np.pi / (4.0 * samples)))
+    whites = [1.0 / float(t[0]) for t in noise.filters]
+
+    def make(log_ratio: float, variance: float = 1.0) -> NoiseModel:
+        drifts = (
+            Drift(decay, variance * w**2 * float(np.exp(log_ratio)), float(np.sqrt(variance)) * w)
+            for w in whites
+        )
+        return replace(noise, drifts=tuple(drifts))
+
+    # from less than anybody can see to as much as white noise in each sample; a first segment tells it as well as all
+    best = optimize.minimize_scalar(
+        lambda x: -_compute_evidence(at, o, make(x), chosen[:1])[0],
+        bounds=(-2.0 * np.log(samples), 0.0),
+        method="bounded",
+        options={"xatol": 0.5},
+    )
+    log_ratio = float(best.x)
+    noise = make(log_ratio, _compute_evidence(at, o, make(log_ratio), chosen)[1])
+    each = zip(noise.drifts, noise.spectra, strict=True)
+    spectra = [replace(s, log_psd=np.log(d.psd(np.exp(s.log_f), s.rate))) for d, s in each]
+    return replace(noise, spectra=tuple(spectra))
+
+
 # scales of a column within which its coefficient is expected where noises are compared: none is known
 VAGUE = 1e3
 
 
 def _compute_evidence(
     at: LinearisationPoint, o: Observation, noise: NoiseModel, chosen: Sequence[slice]
-) -> float:
-    """Of a noise against one of the same filters and level: logarithm, whatever the coefficients of the columns in each segment are.
+) -> tuple[float, float]:
+    """Logarithm, whatever the coefficients of the columns in each segment are, for the likeliest variance of whitened samples; and that.
 
     Coefficients that are fitted with one noise take more of what is not that noise: residuals alone favour the noise they were made with.
     """
-    total = 0.0
-    for T in pass_over(at, o, noise, lambda piece: piece.r_factor(), chosen=chosen):
+
+    def weigh(piece: Piece) -> tuple[float, float, float]:
+        T, r = piece.r_factor(), piece.observation.record
         n = len(T) - 1
         T[:, :n] *= VAGUE
         R = np.diag(add_prior(T, range(n), np.zeros(n)))
-        total -= 0.5 * float(R[-1] ** 2) + float(np.sum(np.log(np.abs(R[:-1]))))
-    return total
+        size = noise.measure_log_size(np.broadcast_to(noise.level.of(r.quantity), r.valid.shape), r.valid)
+        spanned = float(np.sum(1.0 - R[:-1] ** -2.0))
+        free = piece.white.shape[1] - spanned
+        return -float(np.sum(np.log(np.abs(R[:-1])))) - size, float(R[-1] ** 2), free
+
+    total, square, free = np.sum(list(pass_over(at, o, noise, weigh, chosen=chosen)), axis=0)
+    return float(total - 0.5 * free * (1.0 + np.log(square / free))), float(square / free)
 
 
 MEANS = 8192  # most means of a flight

@@ -15,12 +15,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from ragg_runtime.estimation import regressors as design
-from ragg_runtime.estimation.observation import (
-    Observation,
-    Thin,
-    divide_into_segments,
-    spread,
-)
+from ragg_runtime.estimation.observation import Observation, Thin, divide_into_segments, spread
 from ragg_runtime.estimation.regressors import LinearisationPoint, compute_residual, linearise, make_point
 from ragg_runtime.estimation.scores import STD_OF_MEDIAN
 from ragg_runtime.estimation.spectrum import find_lines

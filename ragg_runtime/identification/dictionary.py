@@ -26,7 +26,6 @@ from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight
 from ragg_runtime.io.record import GRADIENT, SI_UNITS, is_disc_angle
 from ragg_runtime.model.record import Record
-from ragg_runtime.signals.fir import filter_columns
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
@@ -258,10 +257,6 @@ def make_carrier(r: Record, harmonic: str) -> Array:
 # --- whitened: the directions along which a residual is asked. Any tells a standard normal deviate from white noise; the
 # whitened series of a term is the one that finds the term best.
 
-# most taps of the filter that terms are whitened with: a direction need not be the best one for its score to be a standard normal
-# deviate, and slower memory than this buys little
-MEMORY = 16384
-
 
 def whiten_terms(
     x: PreparedFlight, dictionary: Dictionary, piece: Piece, terms: Sequence[Term], only: int | None = None
@@ -272,17 +267,15 @@ def whiten_terms(
     """
     o, rows, noise = piece.observation, piece.rows, x.noise
     signs = o.weights if only is None else np.where(np.arange(len(o.signs)) == only, o.signs, 0.0)
-    filters = [*zip(noise.weights(signs), noise.taps(MEMORY), strict=True)]
-    lead = min(rows.start, max(len(taps) for _, taps in filters) - 1)
+    lead = min(rows.start, noise.memory)
     wide = x.observation.record.part(slice(rows.start - lead, rows.stop)) if lead else o.record
     level = np.broadcast_to(noise.level.of(wide.quantity), wide.valid.shape)
     for at, series in dictionary.make_chunks(wide, terms):
         if o.recorded.demodulated:  # what the recorder made of G_out before it was recorded
             series = o.recorded.through(series.astype(np.float64), wide).astype(np.float32)
             series[:, ~wide.valid] = 0.0
-        even = noise.divide(series, level, filtered=False)
-        outputs = (filter_columns(even, np.asarray(w * taps), lead=lead) for w, taps in filters)
-        parts = [noise.divide(y, level[lead:], filtered=True)[:, o.record.valid] for y in outputs]
+        whole = (noise.whiten_series(series, k, None, level, None, lead)[0] for k in range(noise.outputs))
+        parts = [w * y[:, o.record.valid] for w, y in zip(noise.weights(signs), whole, strict=True)]
         X = np.concatenate(parts, axis=1).astype(np.float64)
         unknown_gradient.project(X, piece.windows)
         yield at, series[:, lead:].astype(np.float64), X

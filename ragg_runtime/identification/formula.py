@@ -27,7 +27,6 @@ from ragg_runtime.estimation.whitening import PreparedFlight, Projector
 from ragg_runtime.identification import omnibus
 from ragg_runtime.identification.dictionary import (
     FORCES,
-    MEMORY,
     MOTION,
     OUTPUT,
     Dictionary,
@@ -38,7 +37,6 @@ from ragg_runtime.identification.dictionary import (
 )
 from ragg_runtime.identification.omnibus import Omnibus, Remainder, Scores
 from ragg_runtime.io.record import RATES
-from ragg_runtime.signals.fir import filter_columns
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -167,12 +165,8 @@ def _filter_back(x: PreparedFlight, parts: Sequence[tuple[NDArray[np.intp], Arra
     for sample, left in parts:
         count = len(left) // noise.outputs
         y[:, sample[:count]] = left.reshape(noise.outputs, count)
-    level = noise.level.of(o.record.quantity)
-    y = noise.divide(y, level, filtered=True)
-    total = np.zeros(y.shape[1])
-    for series, w, taps in zip(y, noise.weights(o.weights), noise.taps(MEMORY), strict=True):
-        total += filter_columns(np.ascontiguousarray(series[None, ::-1]), np.asarray(w * taps))[0, ::-1]
-    return noise.divide(total, level, filtered=False)
+    level = np.broadcast_to(noise.level.of(o.record.quantity), o.record.valid.shape)
+    return noise.whiten_back(y, noise.weights(o.weights), o.record.valid, level)
 
 
 # --- a term as an effect of the user's own: a line for ``effects`` in model.toml, and what the flight must have for it

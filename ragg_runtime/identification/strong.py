@@ -14,12 +14,7 @@ import numpy as np
 from scipy.special import comb
 
 from ragg_runtime.estimation import calibration
-from ragg_runtime.estimation.calibration import (
-    QUIET,
-    measure_deviance,
-    measure_to_nominal,
-    restore_priors,
-)
+from ragg_runtime.estimation.calibration import QUIET, measure_deviance, measure_to_nominal, restore_priors
 from ragg_runtime.estimation.fitted import (
     Fitted,
     Scored,

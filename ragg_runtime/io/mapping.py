@@ -257,9 +257,7 @@ _COMPONENT = re.compile(r"(?:(a|omega|omegadot|B|mass)_[xyz]|Gamma_[xyz]{2})")
 
 
 def make_recordings(
-    tables: Sequence[DataTable],
-    place: Path | str,
-    mapping: Mapped | None = None,
+    tables: Sequence[DataTable], place: Path | str, mapping: Mapped | None = None
 ) -> list[DataTable]:
     """The flights in the tables of one file (its ``place``, for messages), one for each line: numbers in the file's units.
 

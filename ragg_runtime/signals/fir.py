@@ -61,7 +61,7 @@ def place_valid(rest: Array, valid: NDArray[np.bool_]) -> Array:
     return e
 
 
-def fill_gaps(columns: Array, present: NDArray[np.bool_], taps: Array, rounding: float = ROUNDING) -> Array:
+def fill_gaps(columns: Floats, present: NDArray[np.bool_], taps: Array, rounding: float = ROUNDING) -> Floats:
     """Columns (n, N) whose samples that are not ``present`` (N,) are chosen for the least output of the filter.
 
     On entry they are zero, or a first guess. If the filter whitens a noise, this is its best linear interpolation, and the same as
@@ -87,7 +87,9 @@ def fill_gaps(columns: Array, present: NDArray[np.bool_], taps: Array, rounding:
     return filled
 
 
-Series = TypeVar("Series", NDArray[np.float64], NDArray[np.complex64], NDArray[np.complex128])
+Series = TypeVar(
+    "Series", NDArray[np.float64], NDArray[np.float32], NDArray[np.complex64], NDArray[np.complex128]
+)
 
 
 def convolve(x: Series, taps: Array, mode: Literal["valid", "same", "full"] = "valid") -> Series:

@@ -33,13 +33,7 @@ from derive.audit.compare import (
     transducer_reader,
 )
 from derive.effects import catalogue
-from derive.propagation import (
-    COEFFICIENT_PARAMETERS,
-    MOTION_NUMBERS,
-    Collected,
-    collect,
-    motion_numbers,
-)
+from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected, collect, motion_numbers
 from derive.simplify import DYNAMIC_EXPERIMENT, PAPER_ENVELOPE, Envelope, certified_bound, simplified
 from derive.simplify.page import critical_conditions
 from derive.stages import PAPER

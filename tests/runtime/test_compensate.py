@@ -237,7 +237,7 @@ def test_formats_and_several_flights(tmp_path: Path) -> None:
 
 BAD: dict[str, list[str]] = {
     "is too short for the demodulator": ["o.csv"],
-    "unknown file ending": ["o.xyz"],
+    "unknown file ending": ["o.docx"],
     "no saved calibration": ["o.csv", "--calibration", "frozen"],
 }
 

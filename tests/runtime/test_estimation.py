@@ -13,6 +13,7 @@ from scipy import optimize, signal
 from scipy.linalg import toeplitz
 
 from ragg_runtime.estimation import calibration, observation
+from ragg_runtime.estimation.drift import Drift
 from ragg_runtime.estimation.least_squares import SETTLED, VALLEY, Linear, is_settled, minimise
 from ragg_runtime.estimation.noise import describe_disturbances, describe_level, estimate_level
 from ragg_runtime.estimation.scores import log_sf_f
@@ -45,8 +46,7 @@ def mean_of(densities: list[Array]) -> Array:
 def test_what_columns_take_of_the_noise_is_no_quiet() -> None:
     """White noise of a minute, fitted by 80 slow columns: its density below 1 Hz came out three times too small."""
     densities = []
-    for seed in range(12):
-        rng = np.random.default_rng(seed)
+    for rng in map(np.random.default_rng, range(12)):
         slow = np.fft.rfft(rng.normal(size=(80, 960)))
         slow[:, np.fft.rfftfreq(960, 1 / RATE) > 1.0] = 0.0
         flat = np.vstack([np.fft.irfft(slow, 960), rng.normal(size=960)])
@@ -98,17 +98,16 @@ def test_a_jump_beside_an_unknown_gradient_leaves_nothing_of_its_edge() -> None:
 def noise(seed: int, slope: float = 0.0) -> Array:
     f = np.fft.rfftfreq(LONG, 1 / RATE)
     shape = np.sqrt(1.0 + (slope > 0) * (0.05 / np.maximum(f, f[1])) ** slope)
-    return np.asarray(
-        np.fft.irfft(np.fft.rfft(np.random.default_rng(seed).standard_normal(LONG)) * shape, LONG)
-    )
+    white = np.fft.rfft(np.random.default_rng(seed).standard_normal(LONG))
+    return np.asarray(np.fft.irfft(white * shape, LONG))
 
 
 @pytest.mark.parametrize("slope", [0.0, 1.0, 2.0])
 def test_noise_is_left_as_it_is(slope: float) -> None:
     for seed in range(12):
         x = noise(seed, slope)
-        _, p = signal.periodogram(x, RATE, window="hann", detrend="constant")
-        assert np.array_equal(cut_lines(p[LOWEST:-1]), p[LOWEST:-1])
+        p = signal.periodogram(x, RATE, window="hann", detrend="constant")[1][LOWEST:-1]
+        assert np.array_equal(cut_lines(p), p)
         assert find_lines(x, RATE, None) == []
         if slope < 2.0:
             assert not fit_columns(np.stack([np.ones(LONG), x]), np.ones(LONG, dtype=bool), RATE, None).events
@@ -167,10 +166,8 @@ def test_what_a_random_effect_explains_best_is_left_to_its_test() -> None:
     terms = {**quantities(rng), "input-rms": np.hypot(x, y), "input": across + along}
     terms |= {"input(0)": across, "input(2)": along}
     jitter = (0.8 * along + 0.3 * across) ** 2
-    for loud, names in (
-        (np.hypot(0.2 + across, 0.2 + along), ("input-rms", "input")),
-        (0.2 + along, ("input(2)",)),
-    ):
+    both = np.hypot(0.2 + across, 0.2 + along)
+    for loud, names in ((both, ("input-rms", "input")), (0.2 + along, ("input(2)",))):
         assert estimate_level(loud * rng.normal(size=N), terms, {"jitter": jitter}).parts[0].name in names
     few = quantities(rng)
     share = (few["abs(a_x)"] * np.cos(few["phi"])) ** 2
@@ -219,20 +216,36 @@ def test_a_walk_that_is_slower_than_the_record_is_noise() -> None:
     assert c.excess == pytest.approx(1.0, abs=0.1)
 
 
-@pytest.mark.parametrize("swells", [True, False])
-def test_noise_that_swells_is_told_from_white_noise_that_does(swells: bool) -> None:
-    """Of drifting noise in proportion to |a_x| the level is divided out first; beside drifts that stay as they are, after the filter."""
+@pytest.mark.parametrize("drifts", [True, False])
+def test_white_noise_that_swells_upon_a_drift_is_told_from_other_noise_that_does(drifts: bool) -> None:
+    """Of blue noise in proportion to |a_x| the level is divided out first; beside drifts that stay as they are it is of the white noise."""
 
     def loud(flight: Flight) -> Array:
         size = np.abs(flight.channels["a_x"])
         level = 0.2 + size / np.sqrt(np.mean(size**2))
         white, other = 0.1 * np.random.default_rng(2).normal(size=(2, len(flight)))
         drift = signal.lfilter([0.15], [1.0, -0.98], other)
-        return np.asarray(level * (white + drift) if swells else level * white + drift)
+        return np.asarray(
+            level * white + drift if drifts else level * signal.lfilter([1.0, -0.6], 1.0, white)
+        )
 
     (noise,) = calibrated(loud, 200.0).noise
     assert [p.name for p in noise.level.parts] == ["abs(a_x)"]
-    assert noise.level_first is swells
+    assert bool(noise.drifts) is drifts
+
+
+def test_a_walk_beneath_uneven_noise_is_whitened_as_by_its_covariance() -> None:
+    """Gaps and all, in two segments; and the transposed filter gives the products of whitened columns."""
+    drift, rng = Drift(decay=0.999, power=0.01, white=0.5), np.random.default_rng(0)
+    level, valid, columns = 1 + 2 * rng.random(400), np.arange(400) % 90 > 7, rng.normal(size=(3, 400))
+    walk = drift.power / (1 - drift.decay**2) * drift.decay ** toeplitz(np.arange(400))
+    factor = np.linalg.cholesky((walk + np.diag((drift.white * level) ** 2))[np.ix_(valid, valid)])
+    early, past = drift.whiten(columns[:, :150], level[:150], valid[:150], None, 0)
+    white = np.hstack([early, drift.whiten(columns[:, 150:], level[150:], valid[150:], past, 0)[0]])
+    assert white[:, valid] == pytest.approx(np.linalg.solve(factor, columns[:, valid].T).T, abs=1e-10)
+    assert drift.measure_log_size(level, valid) == pytest.approx(np.log(np.diag(factor)).sum())
+    product = columns[1] @ drift.whiten_back(white[0] * valid, level, valid)
+    assert product == pytest.approx(white[1, valid] @ white[0, valid])
 
 
 def test_noise_of_a_narrow_band_is_known_though_one_sample_in_a_hundred_is_missing() -> None:
@@ -283,8 +296,7 @@ def wall(x: Array) -> Array:
 
 
 @pytest.mark.parametrize(
-    ("residual", "start"),
-    [(rosenbrock, [-1.2, 1.0]), (rosenbrock, [8.0, -5.0]), (wall, [0.0])],
+    ("residual", "start"), [(rosenbrock, [-1.2, 1.0]), (rosenbrock, [8.0, -5.0]), (wall, [0.0])]
 )
 def test_the_minimum_is_that_of_scipy_and_no_accepted_step_went_up(residual, start) -> None:
     costs: list[float] = []

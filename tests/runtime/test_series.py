@@ -268,7 +268,7 @@ def test_the_diagnosis_is_that_of_the_whole_record(flown, whole) -> None:
     s, flight = flown
     d = diagnose(model.load_packaged(), s.sheet, [flight])
     assert len(d.fitted.observations[0].record.time) * EVERY < len(flight.time)
-    assert "thinned to 8.333 Hz" in dict(panels.describe_record(d.fitted))["samples"]
+    assert "thinned to 8.3333\u202fHz" in dict(panels.describe_record(d.fitted))["samples"]
     assert (d.verdict, d.found) == ("missing-effect", ("thermal-scale",))
     (v,) = (q for q in d.ranking[0].combinations if q.name == "D34 dK1_dT")
     assert abs(abs(v.value) - 2e-8) < 4 * v.std
@@ -376,7 +376,7 @@ def test_the_division_leaves_no_trace(long_flight, monkeypatch) -> None:
     o = observation.observe(replace(flight, valid=valid), s.sheet)
     louder = Level((LevelFactor("time", np.array([0.0, 300.0, 600.0]), np.array([1.0, 3.0, 1.0])),))
     estimated = fitted.fit(model.load_packaged(), s.sheet, [o]).calibration.noise
-    noise = [replace(n, level=louder, level_first=True) for n in estimated]
+    noise = [replace(n, level=louder) for n in estimated]
     whole = fitted.fit(model.load_packaged(), s.sheet, [o], noise)
     monkeypatch.setattr(observation, "ROWS", 1700)
     assert len(o.segments) > 5

@@ -20,13 +20,7 @@ from ragg_runtime.estimation.scores import Error
 from ragg_runtime.identification import likelihood_ratio, selection
 from ragg_runtime.identification.consistency import find_change, log_e
 from ragg_runtime.identification.likelihood_ratio import STRENGTHS
-from ragg_runtime.identification.ranking import (
-    HELD,
-    Probabilities,
-    Ranked,
-    add_probability,
-    weigh_effects,
-)
+from ragg_runtime.identification.ranking import HELD, Probabilities, Ranked, add_probability, weigh_effects
 from ragg_runtime.identification.selection import ProjectedProblem
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import scenario

@@ -117,12 +117,7 @@ def case_acceleration(triad: Triad, motion: MotionState) -> Triple:
 
 
 def further_terms(
-    j: int,
-    f: Triple,
-    triad: Triad,
-    motion: MotionState,
-    auxiliaries: Mapping[str, Array],
-    effects: Injected,
+    j: int, f: Triple, triad: Triad, motion: MotionState, auxiliaries: Mapping[str, Array], effects: Injected
 ) -> Array | float:
     """What accelerometer j adds to Eq. 1, m/s^2; ``f`` is f_i, f_o, f_p; ``triad`` tau_x, tau_y, tau_z, (3, N) each."""
     f_i = f[0]
