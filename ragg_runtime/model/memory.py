@@ -31,7 +31,7 @@ FORGOTTEN = 14.0  # time constants after which a linear response has forgotten: 
 SLIPPED = 120.0
 WHOLE = 1e9  # s: a temperature may turn but once in a record
 SETTLED = 3.0  # s in which a turning disc has turned the force over, so that what can slip has slipped
-LEAST = 2e-3  # least value of what describes a memory, in neutral ones: a fit may try others on its way
+LEAST = 2e-3  # least value of what describes a memory, in neutral ones
 
 SHARE = 0.15
 """Width of friction at which a search begins, over the standard deviation of the force in the disc's plane: from 0.01 to 0.4
@@ -72,9 +72,13 @@ def list_memories(model: Model, p: Array) -> Iterator[Memory]:
     places = model.chain.places
     for e in (e for e in model.effects if e.memory is not None):
         shape = (q for q in e.parameters if q.shape)
-        yield Memory(
-            str(e.memory), {q.name: max(float(p[places[q.symbol].start]), LEAST * q.default) for q in shape}
-        )
+        yield Memory(str(e.memory), {q.name: float(p[places[q.symbol].start]) for q in shape})
+
+
+def has_memories(model: Model, p: Array) -> bool:
+    """Whether there are memories of the parameters p (size,), SI: none has a frequency or a time below zero, or next to it."""
+    shape = (q for e in model.effects if e.memory is not None for q in e.parameters if q.shape)
+    return all(p[model.chain.places[q.symbol].start] >= LEAST * q.default for q in shape)
 
 
 def first_memories(effects: Iterable[DerivedEffect], r: Record) -> Iterator[tuple[DerivedEffect, Memory]]:

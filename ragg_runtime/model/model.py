@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generated.output_effects import RECOGNISERS
-from ragg_runtime.base.errors import at, check_keys
+from ragg_runtime.base.errors import UserError, at, check_keys
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER, Layout, Output, scale
 from ragg_runtime.instrument.units import EOTVOS, Units
@@ -223,7 +223,7 @@ def name_values(chain: Chain, p: Array) -> dict[str, Array]:
 def make_vector(model: Model, instrument: Instrument) -> Array:
     """The parameter vector of ``model.chain``, SI, from model.toml's values; effects' parameters else neutral.
 
-    UserError if model.toml gives an effect a parameter that it does not have, or one of a wrong dimension.
+    UserError if model.toml gives an effect a parameter that it does not have, or one of a wrong dimension; or a frequency or a time of 0.
     """
     units, layout = instrument.units, instrument.layout
     spins = np.array([layout.discs[q.disc].spin_frequency for q in layout.places])
@@ -238,6 +238,13 @@ def make_vector(model: Model, instrument: Instrument) -> Array:
         for q in e.parameters:
             size, si = 1 if q.shared else layout.size, units.base_unit(q.unit)
             value = setting.si(q.name, si, units.g0, shared=q.shared, where=where, count=size)
+            if e.memory and q.shape and value is not None and not np.min(value) > 0.0:
+                raise UserError(
+                    f"{q.name} is not above zero",
+                    where=at(where, "effects", e.id),
+                    found=f"{np.min(value):g} {si}",
+                    expected=f"such as {q.default:g} {q.unit}",
+                )
             neutral = np.full(size, q.default * find_unit_factor(q.unit, units))
             values[q.symbol] = neutral if value is None else value
     return np.concatenate([values[name] for name, _ in model.chain.PARAMETERS])

@@ -15,7 +15,7 @@ from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
-from ragg_runtime.model.memory import list_late, move_record
+from ragg_runtime.model.memory import has_memories, list_late, move_record
 from ragg_runtime.model.model import evaluate_voltages, load_packaged, make_vector
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -49,8 +49,7 @@ def test_lost_rates_are_predicted_from_those_beside_them() -> None:
     """A spline errs by a fortieth of such motion."""
     rng, present = np.random.default_rng(3), np.ones(4800, dtype=np.bool_)
     x = np.convolve(rng.standard_normal(4900), np.convolve(np.hanning(9), np.hanning(9)), "same")[:4800]
-    for k in range(100, 4700, 150):
-        present[k : k + 3] = False
+    present[np.add.outer(np.arange(100, 4700, 150), range(3))] = False
     predictions = (predict_missing(x, present), bridge_gaps(x, present, smooth=True))
     off = np.std([(f - x)[~present] for f in predictions], axis=1)
     assert off[0] < off[1] / 10
@@ -65,11 +64,8 @@ def test_the_error_of_a_derived_acceleration_is_part_of_the_noise_and_accuses_no
     channels = {n: v for n, v in flight.channels.items() if n not in ANGULAR_ACCELERATION}
     slopes, valid = derive_accelerations([channels[n] for n in ANGULAR_RATE], flight.time)
     channels |= dict(zip(ANGULAR_ACCELERATION, slopes, strict=True))
-    d = diagnose(
-        load_packaged(),
-        s.sheet,
-        [screen(load_packaged(), s.sheet, replace(flight, channels=channels, valid=valid))],
-    )
+    screened = screen(load_packaged(), s.sheet, replace(flight, channels=channels, valid=valid))
+    d = diagnose(load_packaged(), s.sheet, [screened])
     assert d.verdict == "adequate"
     assert d.before.rms_Eo == pytest.approx(measure_noise_floor(d.fitted), rel=0.15)
     assert d.noise_floor > 3 * 2.8  # it is the largest part
@@ -91,8 +87,7 @@ def _parameters(s: Scenario, model: load.Model, values: dict[str, float]) -> np.
 def test_noise_of_the_motion_makes_no_jumps(world: tuple[Scenario, load.Model]) -> None:
     s, model = world
     r = record(s.simulate().flight(), s.sheet)
-    noise = np.random.default_rng(1).normal(size=len(r.wide["a_x"]))
-    r = replace(r, wide={**r.wide, "a_x": noise})
+    r = replace(r, wide={**r.wide, "a_x": np.random.default_rng(1).normal(size=len(r.wide["a_x"]))})
     (offset,) = (k for k, q in list_late(model) if q.name == "delta_t")
 
     def at(delta: float) -> np.ndarray:
@@ -105,6 +100,15 @@ def test_noise_of_the_motion_makes_no_jumps(world: tuple[Scenario, load.Model]) 
         assert np.max(np.abs(at(delta + tick) - at(delta - tick))) < 1e-4
     same, _ = move_record(model, r, _parameters(s, model, {"epsilon": 0.0, "delta_t": 0.0}))
     assert same is r
+
+
+def test_no_resonance_has_a_frequency_below_zero() -> None:
+    s = scenario(72, duration=60.0)
+    model = derive.with_effects(s.sheet, load_packaged(), ["mount-resonance"])
+    p, (e,) = make_vector(model, s.sheet), model.effects
+    assert has_memories(model, p)
+    p[[model.chain.places[q.symbol].start for q in e.parameters if q.name == "f_0"]] *= -1.0
+    assert not has_memories(model, p)
 
 
 def test_a_drift_of_half_a_sample_and_more_is_fitted_down_to_noise() -> None:
@@ -127,8 +131,7 @@ def test_the_ends_are_left_out_where_motion_is_late(world: tuple[Scenario, load.
     assert leave_out_uncertain(load_packaged(), s.sheet, [o])[0] is o
     (kept,) = leave_out_uncertain(model, s.sheet, [o])
     assert np.flatnonzero(~kept.record.valid).tolist() == [0, len(o.record.time) - 1]
-    short = o.part(slice(0, 8))
-    assert leave_out_uncertain(model, s.sheet, [short])[0] is short
+    assert leave_out_uncertain(model, s.sheet, [short := o.part(slice(0, 8))])[0] is short
 
 
 @pytest.fixture(scope="module")
@@ -149,16 +152,13 @@ def test_what_is_kept_is_on_the_same_side_for_every_instrument_that_the_sheet_al
         a = s.sheet.accelerometers
         drawn = {n: a[n] + s.sheet.sigma(n) * rng.standard_normal(4) for n in ("K0", "dR", "beta_z", "K2")}
         other = s.sheet.replace(**drawn)
-        changed |= (np.sign(evaluate_voltages(model.chain, o.record, make_vector(model, other))) != side).any(
-            axis=0
-        )
+        now = np.sign(evaluate_voltages(model.chain, o.record, make_vector(model, other)))
+        changed |= (now != side).any(axis=0)
     assert changed.any()
     assert not np.any(changed & kept.record.valid)
 
 
-def test_every_sample_is_kept_where_nothing_switches_or_the_sheet_knows_nothing_of_the_side(
-    switching_world,
-) -> None:
+def test_every_sample_is_kept_where_nothing_switches_or_the_sheet_knows_no_side(switching_world) -> None:
     s, model = switching_world
     o = observe(s.simulate().flight(), s.sheet)
     assert leave_out_uncertain(load_packaged(), s.sheet, [o]) == [o]
