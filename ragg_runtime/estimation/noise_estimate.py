@@ -346,9 +346,8 @@ def _choose_level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> 
     return estimate_level(join(z), quantities, alternatives)
 
 
-PLAIN = (
-    3.0  # logarithm of how much likelier a level of all noise must be than one of white noise upon a drift
-)
+# logarithm of how much likelier a level of all noise must be than one of the white noise upon a drift
+PLAIN = 3.0
 
 
 def _choose_form(
