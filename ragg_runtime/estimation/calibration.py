@@ -27,7 +27,7 @@ from ragg_runtime.estimation.regressors import (
 from ragg_runtime.estimation.unknown_gradient import Window, make_windows
 from ragg_runtime.estimation.whitening import Piece, pass_over
 from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
-from ragg_runtime.model.memory import has_memories
+from ragg_runtime.model.memory import allows_memories
 from ragg_runtime.model.model import Model, make_vector, scale_factor
 
 Array = NDArray[np.float64]
@@ -128,7 +128,7 @@ class _Task:
         data, rows = np.full((n + 1, n + 1), np.nan), 0
         sums = {o.place: np.zeros(n + 1) for o in self.observations}
         scaled = all(scale_factor(self.model, p, place) > 0.0 for place in sums)
-        if scaled and has_memories(self.model, p):
+        if scaled and allows_memories(self.model, p):
             point, r_factors = LinearisationPoint(self.model, p, self.columns), []
             for o, (noise, spanned) in zip(self.observations, weights, strict=True):
                 for T, count, part in pass_over(point, o, noise, _reduce_piece, spanned=spanned):

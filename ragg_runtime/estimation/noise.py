@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.estimation.drift import Drift, Past
+from ragg_runtime.estimation.drifting_noise import DriftingNoise, Past
 from ragg_runtime.estimation.scores import log_sf
 from ragg_runtime.estimation.spectrum import MOST_LINES, Disturbance, Spectrum
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, GRADIENT, SPECIFIC_FORCE, is_disc_angle
@@ -259,7 +259,7 @@ class NoiseModel:
 
     It is noise of a spectrum for every whitened series, whose level may follow what is known from sample to sample, and lines. What
     follows it is all of the noise (uniformly modulated noise: M. Priestley, J. R. Stat. Soc. B 27, 1965), or the white noise upon a drift
-    (:mod:`drift`).
+    (:mod:`drifting_noise`).
     The filters are causal and finite: linear, hence exact on columns however much larger than the noise they are, and a long record can
     be streamed through them. Samples that are not valid are interpolated, in data and columns alike, as the noise makes most likely
     (:func:`fir.fill_gaps`), and the filters start from rest: what the model explains it explains before and after; only the noise next to
@@ -286,7 +286,7 @@ class NoiseModel:
     spectra: tuple[Spectrum, ...]
     filters: tuple[Array, ...]
     level: Level = field(default_factory=Level)
-    drifts: tuple[Drift, ...] = ()
+    drifts: tuple[DriftingNoise, ...] = ()
     lines: tuple[SpectralLine, ...] = ()
     combinations: Array | None = field(default=None, compare=False)
     disturbed: str | None = None

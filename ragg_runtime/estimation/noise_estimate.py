@@ -12,7 +12,7 @@ from scipy import fft, optimize
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import unknown_gradient
-from ragg_runtime.estimation.drift import Drift
+from ragg_runtime.estimation.drifting_noise import DriftingNoise
 from ragg_runtime.estimation.least_squares import add_prior
 from ragg_runtime.estimation.noise import (
     Level,
@@ -372,7 +372,7 @@ def _fit_drifts(
 
     def make(log_ratio: float, variance: float = 1.0) -> NoiseModel:
         drifts = (
-            Drift(decay, variance * w**2 * float(np.exp(log_ratio)), float(np.sqrt(variance)) * w)
+            DriftingNoise(decay, variance * w**2 * float(np.exp(log_ratio)), float(np.sqrt(variance)) * w)
             for w in whites
         )
         return replace(noise, drifts=tuple(drifts))

@@ -404,7 +404,7 @@ def _require_increasing(time: Array, path: Path | str | None, where: str) -> Non
     what, remedy = (
         "the time runs backwards",
         "remove duplicate rows or sort the rows by time; two records need two files; if a clock was set (to winter time?), "
-        + _COUNT_ROWS.format(rate=16),
+        + _COUNT_ROWS.format(rate="..."),
     )
     in_order = np.diff(np.sort(time))
     swapped = np.min(in_order) > 0.5 * np.median(in_order)

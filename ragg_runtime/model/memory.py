@@ -75,8 +75,8 @@ def list_memories(model: Model, p: Array) -> Iterator[Memory]:
         yield Memory(str(e.memory), {q.name: float(p[places[q.symbol].start]) for q in shape})
 
 
-def has_memories(model: Model, p: Array) -> bool:
-    """Whether there are memories of the parameters p (size,), SI: none has a frequency or a time below zero, or next to it."""
+def allows_memories(model: Model, p: Array) -> bool:
+    """Whether the parameters p (size,), SI, describe memories: no frequency, time or width is below zero, or next to it."""
     shape = (q for e in model.effects if e.memory is not None for q in e.parameters if q.shape)
     return all(p[model.chain.places[q.symbol].start] >= LEAST * q.default for q in shape)
 

@@ -13,7 +13,7 @@ from scipy import optimize, signal
 from scipy.linalg import toeplitz
 
 from ragg_runtime.estimation import calibration, observation
-from ragg_runtime.estimation.drift import Drift
+from ragg_runtime.estimation.drifting_noise import DriftingNoise
 from ragg_runtime.estimation.least_squares import SETTLED, VALLEY, Linear, is_settled, minimise
 from ragg_runtime.estimation.noise import describe_disturbances, describe_level, estimate_level
 from ragg_runtime.estimation.scores import log_sf_f
@@ -236,7 +236,7 @@ def test_white_noise_that_swells_upon_a_drift_is_told_from_other_noise_that_does
 
 def test_a_walk_beneath_uneven_noise_is_whitened_as_by_its_covariance() -> None:
     """Gaps and all, in two segments; and the transposed filter gives the products of whitened columns."""
-    drift, rng = Drift(decay=0.999, power=0.01, white=0.5), np.random.default_rng(0)
+    drift, rng = DriftingNoise(decay=0.999, power=0.01, white=0.5), np.random.default_rng(0)
     level, valid, columns = 1 + 2 * rng.random(400), np.arange(400) % 90 > 7, rng.normal(size=(3, 400))
     walk = drift.power / (1 - drift.decay**2) * drift.decay ** toeplitz(np.arange(400))
     factor = np.linalg.cholesky((walk + np.diag((drift.white * level) ** 2))[np.ix_(valid, valid)])

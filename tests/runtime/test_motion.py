@@ -15,7 +15,7 @@ from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.model import derive
 from ragg_runtime.model import model as load
-from ragg_runtime.model.memory import has_memories, list_late, move_record
+from ragg_runtime.model.memory import allows_memories, list_late, move_record
 from ragg_runtime.model.model import evaluate_voltages, load_packaged, make_vector
 from ragg_runtime.model.record import record
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -106,9 +106,9 @@ def test_no_resonance_has_a_frequency_below_zero() -> None:
     s = scenario(72, duration=60.0)
     model = derive.with_effects(s.sheet, load_packaged(), ["mount-resonance"])
     p, (e,) = make_vector(model, s.sheet), model.effects
-    assert has_memories(model, p)
+    assert allows_memories(model, p)
     p[[model.chain.places[q.symbol].start for q in e.parameters if q.name == "f_0"]] *= -1.0
-    assert not has_memories(model, p)
+    assert not allows_memories(model, p)
 
 
 def test_a_drift_of_half_a_sample_and_more_is_fitted_down_to_noise() -> None:

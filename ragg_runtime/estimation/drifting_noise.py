@@ -22,7 +22,7 @@ TOGETHER = 64  # columns that are filtered at a time
 
 
 @dataclass(frozen=True)
-class Drift:
+class DriftingNoise:
     """A random walk, and the white noise upon it.
 
     Attributes
