@@ -26,7 +26,8 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, missing_package, one_line
-from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE, Array
+from ragg_runtime.io.instants import count_seconds
+from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.tables import (
     INDEX,
     DataColumn,
@@ -261,15 +262,6 @@ def _read_attribute(value: Any) -> NDArray[Any]:
     with contextlib.suppress(ValueError, TypeError):
         x = x.astype(np.float64) if x.dtype.kind in "SUO" else x
     return x if x.dtype.kind in "fiu" else np.empty(0)
-
-
-def count_seconds(x: NDArray[Any]) -> tuple[Array, str]:
-    """Instants or elapsed times in seconds, and their unit: instants count from the midnight before the first of them."""
-    present = x[~np.isnat(x)]
-    if x.dtype.kind == "m":
-        return np.where(np.isnat(x), np.nan, x.astype("m8[ns]").astype(np.int64) / 1e9), "s"
-    midnight = present[0].astype("M8[D]") if len(present) else np.datetime64("1970-01-01")
-    return count_seconds(x.astype("M8[ns]") - midnight)[0], f"s since {midnight}"
 
 
 def _decode_objects(cells: list[Any]) -> NDArray[Any] | None:

@@ -5,10 +5,10 @@ A date whose day and month could change places is refused until ``format`` settl
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from types import MappingProxyType
 from typing import Any
@@ -39,12 +39,13 @@ WAYS: Mapping[str, tuple[int, str]] = MappingProxyType(
 )
 """The formats that a mapping may name beside plain seconds: columns that they take, and an example."""
 
+MIDNIGHT = "midnight"  # what times of the day count from
 _EPOCH = datetime(1970, 1, 1)
 _SECOND = 10**9
 _LOOKED_AT = 64  # stamps that show how all are written
 _DAY, _HOUR = 86400 * _SECOND, 3600 * _SECOND
 _NO_HOUR = "000000"
-_NONE = np.iinfo(np.int64).min
+_NONE = np.iinfo(np.int64).min  # as NaT
 _STAMP = re.compile(
     r"(?:(?P<days>-?\d+)(?: +days?,?(?: +|$)|\.(?=\d\d:\d\d:\d\d)))?"
     r"(?:(?P<date>\d[\w/.-]*\d|(?=.*[A-Za-z]{3})[\w.,/ -]*?\w)(?:(?:,|,?[T _-]) *(?=\d+:)|,?$))?"
@@ -76,17 +77,6 @@ _SPELLINGS = tuple(
 _YEAR_DAY = re.compile(r"(\d{4})[-/.]?(\d{3})")
 
 
-@dataclass(frozen=True)
-class Stamps:
-    """Instants in seconds."""
-
-    values: Array  # (n,) s, NaN where there is none
-    instants: bool = True  # dates, times of the day or GPS time; otherwise elapsed times
-    # what instants count from: the midnight before the first (UTC, or GPS time where the file counts in that), if the day is known
-    origin: datetime | None = None
-    notes: tuple[str, ...] = ()
-
-
 def _match(text: str) -> re.Match[str] | None:
     """A stamp taken apart, however it is written."""
     for pattern, plain in _SPELLINGS:
@@ -115,49 +105,47 @@ def parse_order(format_: str) -> str | None:
 
 def read_stamps(
     columns: Sequence[NDArray[Any]], way: str | None, where: str, row: Callable[[int], str] = "row {}".format
-) -> Stamps:
+) -> tuple[Array, str, tuple[str, ...]]:
     """The stamps in one or two columns of texts or numbers (n,), written in one of :data:`WAYS` or another order of day, month and year
-    (``None``: seen from the values). UserError, with its place ``where`` and its ``row``, at the first that cannot be read, or if day
-    and month could change places.
+    (``None``: seen from the values), as seconds (n,), NaN where there is none; their unit, with what instants count from; and notes.
+
+    UserError, with its place ``where`` and its ``row``, at the first that cannot be read, or if day and month could change places.
     """
     first, last = columns[0], [_write_clock(v) for v in columns[-1]]
     if way == "gps":
-        return _count(_read_gps(first, columns[1], where))
+        return *count_seconds(_read_gps(first, columns[1], where)), ()
     pairs = zip(map(_write_date, first), last, strict=True)
     texts = last if len(columns) == 1 else [f"{d} {c}" if d and c else "" for d, c in pairs]
     order = None if way is None else parse_order(way)
     fast = _read_iso(texts) if order in (None, "ymd") else None
-    return _read_texts(texts, order, where, row) if fast is None else _count(fast)
+    return _read_texts(texts, order, where, row) if fast is None else (*count_seconds(fast), ())
 
 
 def read_epoch(date: str) -> datetime | None:
     """The instant from which stamps count ``since`` a date; ``None`` if the date is none."""
     try:
-        start = read_stamps([np.array([date], dtype=object)], None, "")
-    except UserError:
+        seconds, unit, _ = read_stamps([np.array([date], dtype=object)], None, "")
+        midnight = datetime.fromisoformat(unit.removeprefix("s since "))
+        return midnight.replace(tzinfo=UTC) + timedelta(seconds=float(seconds[0]))
+    except (UserError, ValueError):
         return None
-    return None if start.origin is None else start.origin + timedelta(seconds=float(start.values[0]))
 
 
-def _count(total: Nanoseconds, dated: bool = True, notes: tuple[str, ...] = ()) -> Stamps:
-    """Instants as seconds since the midnight before the first; times of the day (not ``dated``) go on over midnight."""
-    present = total != _NONE
-    if not present.any():
-        return Stamps(np.full(len(total), np.nan), notes=notes)
-    if not dated:
-        return Stamps(_follow(total, _DAY), notes=notes)
-    first = int(total[present][0]) // _DAY
-    origin = (_EPOCH + timedelta(days=first)).replace(tzinfo=UTC)
-    return Stamps(np.where(present, (total - first * _DAY) / _SECOND, np.nan), origin=origin, notes=notes)
+def count_seconds(x: NDArray[Any]) -> tuple[Array, str]:
+    """Instants or elapsed times in seconds, and their unit: instants count from the midnight before the first of them."""
+    if x.dtype.kind == "m":
+        return np.where(np.isnat(x), np.nan, x.astype("m8[ns]").astype(np.int64) / _SECOND), "s"
+    present = x[~np.isnat(x)]
+    midnight = present[0].astype("M8[D]") if len(present) else np.datetime64("1970-01-01")
+    return count_seconds(x.astype("M8[ns]") - midnight)[0], f"s since {midnight}"
 
 
-def _follow(total: Nanoseconds, period: int) -> Array:
-    """Times that begin anew every day, or every hour, as seconds that go on."""
-    seconds, present = np.full(len(total), np.nan), total != _NONE
-    values = total[present]
-    again = np.cumsum(np.diff(values, prepend=values[:1]) < -(period // 2))
-    seconds[present] = (values + again * period) / _SECOND
-    return seconds
+def _follow(total: Nanoseconds, period: int) -> tuple[Array, str]:
+    """Times that begin anew every day, or every hour, as seconds that go on, and their unit."""
+    total, present = total.copy(), total != _NONE
+    again = np.cumsum(np.diff(total[present], prepend=total[present][:1]) < -(period // 2))
+    total[present] += again * period
+    return count_seconds(total.view("m8[ns]"))[0], f"s since {MIDNIGHT}"
 
 
 def _write_clock(value: Any) -> str:
@@ -179,20 +167,20 @@ def _write_date(value: Any) -> str:
     return str(value).strip().removesuffix("T00:00:00")
 
 
-def _read_iso(values: Sequence[str]) -> Nanoseconds | None:
-    """Nanoseconds since 1970 of millions of ISO 8601 texts; ``None`` if one is anything else."""
+def _read_iso(values: Sequence[str]) -> NDArray[np.datetime64] | None:
+    """Millions of ISO 8601 texts as instants; ``None`` if one is anything else."""
     texts = [re.sub(r"(\.\d{9})\d+", r"\1", t.replace(",", ".")) or None for t in values]
     for zone in (None, "UTC"):
-        try:
-            column = pa.array(texts, pa.string()).cast(pa.timestamp("ns", tz=zone)).cast(pa.int64())
-        except pa.ArrowException:
-            continue
-        return np.asarray(column.fill_null(_NONE).to_numpy(zero_copy_only=False), np.int64)
+        with contextlib.suppress(pa.ArrowException):
+            column = pa.array(texts, pa.string()).cast(pa.timestamp("ns", tz=zone))
+            return np.asarray(column.to_numpy(zero_copy_only=False))
     return None
 
 
-def _read_texts(values: Sequence[str], order: str | None, where: str, row: Callable[[int], str]) -> Stamps:
-    """Dates and times as people write them."""
+def _read_texts(
+    values: Sequence[str], order: str | None, where: str, row: Callable[[int], str]
+) -> tuple[Array, str, tuple[str, ...]]:
+    """Dates and times as people write them; see :func:`read_stamps`."""
     matches = {k: _match(t) for k, t in enumerate(values) if t not in MISSING}
     readable = {k: m for k, m in matches.items() if m is not None}
     dates = dict.fromkeys(d for m in readable.values() if (d := _join_date(m)))
@@ -225,10 +213,12 @@ def _read_texts(values: Sequence[str], order: str | None, where: str, row: Calla
         after = np.arange(len(total)) > leaps[-1]
         total[after & (total != _NONE)] += _SECOND
     if readable and all(m["h"] == _NO_HOUR for m in readable.values()):
-        return Stamps(_follow(total, _HOUR))
-    if not dated and any(m["days"] or int(m["h"]) > 23 for m in readable.values()):
-        return Stamps(np.where(total == _NONE, np.nan, total / _SECOND), instants=False)
-    return _count(total, dated, notes + ("a leap second (hh:mm:60) is counted",) * bool(leaps))
+        return *_follow(total, _HOUR), ()
+    elapsed = not dated and any(m["days"] or int(m["h"]) > 23 for m in readable.values())
+    notes += ("a leap second (hh:mm:60) is counted",) * bool(leaps and not elapsed)
+    if dated or elapsed:
+        return *count_seconds(total.view("M8[ns]" if dated else "m8[ns]")), notes
+    return *_follow(total, _DAY), notes
 
 
 def _join_date(m: re.Match[str]) -> str:
@@ -287,8 +277,8 @@ def _read_date(text: str, order: str) -> int | None:
         return None
 
 
-def _read_gps(week: NDArray[Any], second: NDArray[Any], where: str) -> Nanoseconds:
-    """Nanoseconds since 1970, in GPS time."""
+def _read_gps(week: NDArray[Any], second: NDArray[Any], where: str) -> NDArray[np.datetime64]:
+    """Instants, in GPS time."""
     if week.dtype.kind != "f" or second.dtype.kind != "f":
         raise _refuse(where, (second if week.dtype.kind == "f" else week)[0], "as week and seconds")
     present = np.isfinite(week) & np.isfinite(second)
@@ -298,7 +288,7 @@ def _read_gps(week: NDArray[Any], second: NDArray[Any], where: str) -> Nanosecon
         stamp = f"week {w[wrong][0]:g}, {s[wrong][0]:g} s"
         raise _refuse(where, stamp, "as a whole week and seconds in it")
     weeks = int(GPS_EPOCH.timestamp()) * _SECOND + w.astype(np.int64) * 7 * _DAY
-    return np.where(present, weeks + np.rint(s * 1e9).astype(np.int64), _NONE)
+    return np.where(present, weeks + np.rint(s * 1e9).astype(np.int64), _NONE).view("M8[ns]")
 
 
 def _refuse(where: str, stamp: object, row: str) -> UserError:

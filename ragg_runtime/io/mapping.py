@@ -32,8 +32,15 @@ from ragg_runtime.base.errors import (
 from ragg_runtime.base.files import read_text
 from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
 from ragg_runtime.instrument.units import read_quantity, read_si, units
-from ragg_runtime.io.arrays import count_seconds
-from ragg_runtime.io.instants import WAYS, are_packed, parse_order, read_epoch, read_stamps
+from ragg_runtime.io.instants import (
+    MIDNIGHT,
+    WAYS,
+    are_packed,
+    count_seconds,
+    parse_order,
+    read_epoch,
+    read_stamps,
+)
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.io.sampling import SHARED
 from ragg_runtime.io.tables import (
@@ -394,19 +401,19 @@ def _read_time(columns: Sequence[DataColumn], table: DataTable, t: TimeEntry) ->
     mostly = not first.is_text or float(np.mean(np.isfinite(parse_quantities(few, table.decimal)[0]))) > 0.5
     numeric = mostly and not are_packed(few)
     if t.format != "seconds" and (t.format is not None or not numeric):
-        stamps = read_stamps([c.values for c in columns], t.format, where, table.row)
-        table = replace(
-            table, origin=stamps.origin, instants=stamps.instants, notes=table.notes + stamps.notes
-        )
-        return DataColumn("time", "s", stamps.values), table
-    remedy = None if numeric else f"specify the format: [time] format = {', '.join(map(repr, WAYS))}"
-    unit, _, epoch = first.unit.partition(" since ")
-    read = _read_numbers(replace(first, unit=unit), table, t.null, remedy)
-    time = replace(read, name="time", unit=t.unit or unit)
-    if (origin := read_epoch(epoch) if epoch else None) is not None:
-        seconds = units(9.8).to_si(time.values, time.unit, "s", where)
-        time, table = DataColumn("time", "s", seconds), replace(table, origin=origin, instants=True)
-    return time, table
+        seconds, written, notes = read_stamps([c.values for c in columns], t.format, where, table.row)
+        unit, _, epoch = written.partition(" since ")
+        time, table = DataColumn("time", unit, seconds), replace(table, notes=table.notes + notes)
+    else:
+        remedy = None if numeric else f"specify the format: [time] format = {', '.join(map(repr, WAYS))}"
+        unit, _, epoch = first.unit.partition(" since ")
+        read = _read_numbers(replace(first, unit=unit), table, t.null, remedy)
+        time = replace(read, name="time", unit=t.unit or unit)
+    origin = read_epoch(epoch)
+    if origin is None and epoch != MIDNIGHT:
+        return time, table
+    seconds = units(9.8).to_si(time.values, time.unit, "s", where)
+    return DataColumn("time", "s", seconds), replace(table, origin=origin, instants=True)
 
 
 def _add_fraction(
