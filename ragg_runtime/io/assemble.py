@@ -78,9 +78,9 @@ def make_flight(
     kept = tuple(c for c in table.columns if is_column(c.name) and c.name not in leave)
     table = replace(table, columns=kept, notes=(*table.notes, *_pass_over(table.names)))
     si, si_units = _convert(table, g0, accelerometers)
-    doubled = [*_leave_out_doubled(si, table), *_leave_out_misplaced(si)]
+    left_out = _leave_out_rows(si, table)
     grid = make_grid(si.pop("time"), table.place)
-    notes = [*table.notes, *doubled, *_leave_out_impossible(si, si_units), *grid.notes]
+    notes = [*table.notes, *left_out, *_leave_out_impossible(si, si_units), *grid.notes]
     placed = {c: _place(si.pop(c), grid) for c in [*si]}  # of a day at 100 Hz each is 70 MB
     _drop_empty(placed, notes, table.place)
     if need_output:
@@ -181,35 +181,30 @@ def _convert(
     return columns, si_units
 
 
-def _leave_out_doubled(si: dict[str, Array], table: DataTable) -> list[str]:
-    """Leave out rows of zeros, which recorders reserve ahead or write until they are ready, and rows that are in the file once more, to
-    the last digit: one was appended to another with an overlap.
+def _leave_out_rows(si: dict[str, Array], table: DataTable) -> list[str]:
+    """Leave out, with notes, rows without which time increases; where it does not, the message about it says more.
+
+    Rows of zeros, which recorders reserve ahead or write until they are ready; rows that are in the file once more, to the last digit,
+    as one was appended to another with an overlap; rows whose stamp alone does not lie between those beside it.
     """
+    notes = list[str]()
+
+    def leave_out(wrong: Mask, what: str, first: str) -> None:
+        if wrong.any() and np.all(np.diff(si["time"][~wrong]) > 0):
+            notes.append(f"{count(int(np.sum(wrong)), 'row')} {what} left out (the first {first})")
+            si.update({n: x[~wrong] for n, x in si.items()})
+
     if np.all(np.diff(si["time"]) > 0):
-        return []
+        return notes
     empty = np.all([(c.values == 0.0) | np.isnan(c.values) for c in table.columns], axis=0)
-    notes = _leave_out(si, empty, "of zeros", f"is row {np.argmax(empty) + 1}")
+    leave_out(empty, "of zeros", f"is row {np.argmax(empty) + 1}")
     twice = pd.DataFrame(si).duplicated().to_numpy()
-    place = f"at t = {si['time'][np.argmax(twice)]:.10g} s"
-    return [*notes, *_leave_out(si, twice, "that the file has twice", place)]
-
-
-def _leave_out_misplaced(si: dict[str, Array]) -> list[str]:
-    """Leave out rows whose stamp alone does not lie between those beside it."""
-    time = si["time"]
-    before, after = time[:-2], time[2:]
-    wrong = np.zeros(len(time), dtype=np.bool_)
-    wrong[1:-1] = (before < after) & ((time[1:-1] < before) | (time[1:-1] > after))
-    first = f"after t = {time[np.argmax(wrong) - 1]:.10g} s" if wrong.any() else ""
-    return _leave_out(si, wrong, "whose time stamp is out of order", first)
-
-
-def _leave_out(si: dict[str, Array], wrong: Mask, what: str, first: str) -> list[str]:
-    """Leave out rows with a note, where time increases without them; else the message about it says more."""
-    if not wrong.any() or not np.all(np.diff(si["time"][~wrong]) > 0):
-        return []
-    si |= {n: x[~wrong] for n, x in si.items()}
-    return [f"{count(int(np.sum(wrong)), 'row')} {what} left out (the first {first})"]
+    leave_out(twice, "that the file has twice", f"at t = {si['time'][np.argmax(twice)]:.10g} s")
+    time, apart = si["time"], np.zeros(len(si["time"]), dtype=np.bool_)
+    before, here, after = time[:-2], time[1:-1], time[2:]
+    apart[1:-1] = (before < after) & ((here < before) | (here > after))
+    leave_out(apart, "whose time stamp is out of order", f"after t = {time[np.argmax(apart) - 1]:.10g} s")
+    return notes
 
 
 def _leave_out_impossible(si: dict[str, Array], si_units: Mapping[str, str]) -> list[str]:
@@ -233,38 +228,35 @@ def _require_names(table: DataTable, needed: Sequence[str], what: str) -> None:
         return
     spare = [n for n in table.names if n not in SI_UNITS]
     near = did_you_mean(missing[0], spare) if len(missing) == 1 else None
-    raise UserError(
-        f"the column{'s' * (len(missing) > 1)} {', '.join(missing)} {'are' if missing[1:] else 'is'} missing",
-        where=table.place,
-        found=_list_columns(table, table.names),
-        expected=f"{what} " + ", ".join(needed),
-        remedy=f"is {near[13:-1]} meant for {missing[0]}?"
-        if near
-        else "describe the columns: ragg map FLIGHT -o mapping.toml",
+    remedy = "describe the columns: ragg map FLIGHT -o mapping.toml"
+    remedy = f"is {near[13:-1]} meant for {missing[0]}?" if near else remedy
+    lack = (
+        f"the column{'s' * (len(missing) > 1)} {', '.join(missing)} {'are' if missing[1:] else 'is'} missing"
     )
-
-
-def _list_columns(table: DataTable, names: Collection[str]) -> str:
-    notes = [n for n in table.notes if n.startswith(("skipped,", TWO_ROWS)) or n.endswith("; it is left out")]
-    columns = f"the columns {', '.join(filter(is_column, names))}"
-    return "; ".join([columns, *notes[:6], *_pass_over(table.names)])
+    raise _refuse(lack, table, table.names, f"{what} {', '.join(needed)}", remedy)
 
 
 def _require_output(table: DataTable, names: Collection[str], a: Accelerometers) -> None:
-    if any(o.name in names or a.voltages(o, names) is not None for o in a.outputs):
-        return
-    if len(a.outputs) == 1 and all(n in names for n in DEMODULATED):
+    demodulated = len(a.outputs) == 1 and all(n in names for n in DEMODULATED)
+    if demodulated or any(o.name in names or a.voltages(o, names) is not None for o in a.outputs):
         return
     volts = " ".join(a.voltage_columns(j)[0] for j in a.outputs[0].members)
     further = f"likewise {', '.join(a.output_names[1:])}" if len(a.outputs) > 1 else "or inline and cross"
     near = (did_you_mean(n, (*a.columns, *DEMODULATED)) for n in names if n not in SI_UNITS)
-    raise UserError(
-        "the instrument's output is missing",
-        where=table.place,
-        found=_list_columns(table, names),
-        expected=f"{a.output_names[0]}, or {volts}; {further}",
-        remedy=next(filter(None, near), None),
+    expected = f"{a.output_names[0]}, or {volts}; {further}"
+    raise _refuse(
+        "the instrument's output is missing", table, names, expected, next(filter(None, near), None)
     )
+
+
+def _refuse(
+    what: str, table: DataTable, names: Collection[str], expected: str, remedy: str | None
+) -> UserError:
+    """That something is missing among the columns of these names; with the notes that may say why."""
+    notes = [n for n in table.notes if n.startswith(("skipped,", TWO_ROWS)) or n.endswith("; it is left out")]
+    columns = f"the columns {', '.join(filter(is_column, names))}"
+    found = "; ".join([columns, *notes[:6], *_pass_over(table.names)])
+    return UserError(what, where=table.place, found=found, expected=expected, remedy=remedy)
 
 
 def _drop_empty(columns: dict[str, Array], notes: list[str], place: str) -> None:
@@ -297,19 +289,15 @@ def _find_valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, 
     valid = present.copy()
     for name, values in columns.items():
         missing = np.isnan(values)
-        lacking = missing & present
-        if not lacking.any():
-            continue
-        bridged = np.zeros_like(missing)
-        if _is_auxiliary(name) and name not in outputs:
-            for run in runs(lacking):
-                inside = run.start > 0 and run.stop < len(missing)
-                bridged[run] = inside and (run.stop - run.start + 1) * grid.step <= BRIDGED
-        kept = int(np.sum(bridged))
-        lost = int(np.sum(lacking)) - kept
-        notes += [f"{name}: without a value at {count(kept, 'sample')}, interpolated"] if kept else []
-        notes += [f"{name}: without a value at {count(lost, 'sample')}, not used"] if lost else []
-        valid &= ~missing | bridged
+        lost = missing & present
+        few = np.zeros_like(lost)
+        for run in runs(lost) if _is_auxiliary(name) and name not in outputs else ():
+            inside = run.start > 0 and run.stop < len(lost)
+            few[run] = inside and (run.stop - run.start + 1) * grid.step <= BRIDGED
+        for mask, what in ((few, "interpolated"), (lost & ~few, "not used")):
+            if mask.any():
+                notes.append(f"{name}: without a value at {count(int(np.sum(mask)), 'sample')}, {what}")
+        valid &= ~missing | few
     return valid
 
 

@@ -54,8 +54,6 @@ _REMARK = re.compile(r"^\s*(?:#|%|//|!|/(?=\s))+\s*")
 _LINE = re.compile(r"\s*(?:line|tie)[\s:]+(?=\S*\d)(\S+)\s*", re.IGNORECASE)
 """A row of Geosoft that names the flight line of the rows below it."""
 _DATE_CLOCK = re.compile(rb"(\d[/.-]\d\d?[/.-]\d+)[ \t]+(\d\d?:\d\d:)")
-_OTHER_WIDTH = re.compile(r"CSV parse error: (?:Row #(\d+): )?Expected (\d+) columns, got (\d+)")
-"""How Arrow says that a line has too few cells or too many."""
 
 
 # --- where a table begins ------------------------------------------------------------------------------
@@ -314,23 +312,23 @@ def _parse(
     """The columns as texts, and the rows at which flight lines begin, with their names; UserError where a line with data has another
     width. Others, such as remarks, and a last line that is cut off are skipped.
     """
-    passed, begins = list[str](), list[tuple[int, str]]()
+    passed, begins, wrong = list[str](), list[tuple[int, str]](), list[pyarrow.csv.InvalidRow]()
     cut = data[data.rfind(b"\n") + 1 :].decode()  # a recorder that lost its power ends within a line
 
     def judge(row: pyarrow.csv.InvalidRow) -> str:
         if row.text == cut and row.actual_columns < row.expected_columns:
             notes.append(f"line {row.number}, the last one, is cut off; it is left out")
-            return "skip"
-        if m := _LINE.fullmatch(row.text):
+        elif m := _LINE.fullmatch(row.text):
             begins.append((row.number - lines - 1 - len(begins) - len(passed), m[1]))
-            return "skip"
-        if not _REMARK.match(row.text) and _is_data(row.text.split(delimiter)):
+        elif not _REMARK.match(row.text) and _is_data(row.text.split(delimiter)):
+            wrong.append(row)
             return "error"
-        passed.append(f"line {row.number} ({row.text[:40]!r})")
+        else:
+            passed.append(f"line {row.number} ({row.text[:40]!r})")
         return "skip"
 
     kinds = {str(k): pa.string() for k in range(width)}
-    # with several threads Arrow does not report the row of the error
+    # with several threads Arrow does not number the rows
     options = pyarrow.csv.ReadOptions(
         skip_rows=lines, column_names=list(kinds), block_size=1 << 22, use_threads=False
     )
@@ -341,11 +339,11 @@ def _parse(
     except pa.ArrowInvalid as error:
         if "Empty CSV" in str(error):
             return pa.table({n: pa.array([], k) for n, k in kinds.items()}), []
-        if match := _OTHER_WIDTH.match(str(error)):
-            where, what = at(path, f"line {match[1]}"), "the line has the wrong number of values"
-            expected = f"{match[2]}, as the header has: the file may be damaged or cut off"
-            raise UserError(what, where=where, found=match[3], expected=expected) from None
-        raise UserError(_NOT_CSV, where=path, found=str(error).splitlines()[0][:200]) from None
+        if not wrong:
+            raise UserError(_NOT_CSV, where=path, found=str(error).splitlines()[0][:200]) from None
+        where, what = at(path, f"line {wrong[0].number}"), "the line has the wrong number of values"
+        expected = f"{width}, as the header has: the file may be damaged or cut off"
+        raise UserError(what, where=where, found=wrong[0].actual_columns, expected=expected) from None
     if passed:
         notes.append(f"{count(len(passed), 'line')} without data skipped: {', '.join(passed[:3])}")
     return table, begins
