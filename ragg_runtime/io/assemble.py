@@ -6,7 +6,6 @@ from collections.abc import Collection, Container, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-import pandas as pd
 
 from derive.names import EXPECTED
 from ragg_runtime.base.errors import UserError, at, count, did_you_mean, is_column, one_line
@@ -198,6 +197,8 @@ def _leave_out_rows(si: dict[str, Array], table: DataTable) -> list[str]:
         return notes
     empty = np.all([(c.values == 0.0) | np.isnan(c.values) for c in table.columns], axis=0)
     leave_out(empty, "of zeros", f"is row {np.argmax(empty) + 1}")
+    import pandas as pd  # slow to import, and few records need it
+
     twice = pd.DataFrame(si).duplicated().to_numpy()
     leave_out(twice, "that the file has twice", f"at t = {si['time'][np.argmax(twice)]:.10g} s")
     time, apart = si["time"], np.zeros(len(si["time"]), dtype=np.bool_)

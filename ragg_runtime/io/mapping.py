@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 
 from ragg_runtime.base.errors import (
     UserError,
@@ -346,6 +345,8 @@ def join_parts(table: DataTable) -> DataTable:
     parts = {names[c.name]: c for c in table.columns if names[c.name] in PARTS and c.is_number}
     if len(parts) < len(PARTS) or "time" in table.names:
         return table
+    import pandas as pd  # slow to import, and few files need it
+
     stamps = pd.to_datetime(pd.DataFrame({n: parts[n].values for n in PARTS}), errors="coerce")
     seconds, unit = count_seconds(stamps.to_numpy())
     others = (c for c in table.columns if c not in parts.values())
@@ -481,6 +482,8 @@ def split_lines(tables: Sequence[DataTable], column: str | None, where: Path | s
             found=f"{len(different)} values in {len(which)} rows",
             expected=f"at most {MOST_LINES}, or another column in a mapping: [file] line = ...",
         )
+    import pandas as pd  # slow to import, and few files need it
+
     labels = pd.Series(np.array([name_line(v) for v in different], dtype=object)[which])
     once = np.sum(labels == "") > 0.5 * len(labels)  # in the first row of each
     labels = labels.where(labels != "").ffill().fillna("") if once else labels

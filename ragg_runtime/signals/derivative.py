@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import cache
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import interpolate, linalg, ndimage
+from scipy import linalg, ndimage
 
 from ragg_runtime.signals.fir import fill_gaps
+
+if TYPE_CHECKING:
+    from scipy.interpolate import BSpline
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -136,8 +140,17 @@ def bridge_gaps(x: Array, present: Mask, *, smooth: bool = False, turning: bool 
     for group in np.split(np.arange(len(at)), wide) if smooth else ():
         if len(group) > 1:
             inside, degree = slice(at[group[0]], at[group[-1]] + 1), min(BRIDGE, len(group) // 2 * 2 - 1)
-            bridge[inside] = interpolate.make_interp_spline(at[group], off[group], degree)(k[inside])
+            bridge[inside] = _fit_spline(at[group], off[group], degree)(k[inside])
     return np.where(present, x, bridge + np.polyval(turn, k))
+
+
+def _fit_spline(at: NDArray[Any], x: Array, degree: int) -> BSpline:
+    """The spline through samples (n,) or (n, series) at places (n,)."""
+    from scipy.interpolate import (
+        make_interp_spline,
+    )  # slow to import, and commands without a flight need none
+
+    return make_interp_spline(at, x, degree)
 
 
 PREDICTED = 24  # samples from which an autoregressive series predicts the next: as many as enter a derivative
@@ -174,7 +187,7 @@ def interpolate_even(x: Sequence[Array], at: Array, *, integral: bool = False) -
     rows = np.stack(x, axis=-1)
     degree = min(SPLINE, (len(rows) - 1) // 2 * 2 - 1)
     first = rows[:1]  # a large constant would cost digits
-    spline = interpolate.make_interp_spline(np.arange(len(rows), dtype=np.float64), rows - first, k=degree)
+    spline = _fit_spline(np.arange(len(rows), dtype=np.float64), rows - first, degree)
     values = spline(at) + first if not integral else spline.antiderivative()(at) + first * at[:, None]
     return np.asarray(values.T)
 
@@ -328,9 +341,7 @@ def resample(x: Array, time: Array, instants: Array) -> Array:
     for run in runs(np.isfinite(x)):
         size = run.stop - run.start
         degree = min(DEGREE, (size - 1) // 2 * 2 - 1)
-        values[run] = (
-            x[run] if size < 3 else interpolate.make_interp_spline(time[run], x[run], degree)(instants[run])
-        )
+        values[run] = x[run] if size < 3 else _fit_spline(time[run], x[run], degree)(instants[run])
     return values
 
 
