@@ -148,8 +148,7 @@ def _read_numbers(table: DataTable) -> tuple[DataTable, dict[str, list[str]]]:
             numbers, unit, spoiled = parse_quantities(c.values, table.decimal)
             cells = sorted({*c.values[spoiled]})
             if len(cells) <= _FEW and np.mean(np.isfinite(numbers)) > 0.5:
-                written = ", ".join(f'"{_quote(t)}"' for t in cells)
-                odd[c.name] = [f"null = [{written}]"] * bool(cells)
+                odd[c.name] = [_write("null", cells)] * bool(cells)
                 c = replace(c, unit=unit or c.unit, values=numbers)
         columns.append(c)
     return replace(table, columns=tuple(columns)), odd
@@ -159,13 +158,20 @@ def _draft_file(table: DataTable, tables: Sequence[DataTable], name: str | None)
     """Which part of the file, and which lines."""
     above, lines = [], []
     if len(tables) > 1:
-        shown = ", ".join(f'"{_quote(str(t.line))}"' for t in tables[:6])
-        above = [f"# {len(tables)} lines; [file] lines = [...] picks some: {shown}", ""]
+        shown = _write("lines", [str(t.line) for t in tables[:6]])
+        above = [f"# {len(tables)} lines; [file] picks some, such as {shown}", ""]
     if table.part:
-        lines.append(f'part = "{_quote(table.part)}"  # likely: the file holds several tables that differ')
+        lines.append(_write("part", table.part, "likely: the file holds several tables that differ"))
     if name is not None:
-        lines.append(f'line = "{_quote(name)}"  # likely: names the flight lines; remove it if it does not')
+        lines.append(_write("line", name, "likely: names the flight lines; remove it if it does not"))
     return [*above, "[file]", *lines, ""] if lines else above
+
+
+def _write(key: str, value: str | Sequence[str], remark: str = "") -> str:
+    """A line of TOML with a text, or a list of them, and a remark."""
+    texts = [f'"{_quote(v)}"' for v in ((value,) if isinstance(value, str) else value)]
+    text = texts[0] if isinstance(value, str) else f"[{', '.join(texts)}]"
+    return f"{key} = {text}" + f"  # {remark}" * bool(remark)
 
 
 # --- time ----------------------------------------------------------------------------------------------
@@ -181,13 +187,10 @@ def _draft_time(
     """The lines of [time], and the names of its columns."""
     if (instants := _find_instants(table, roles)) is not None:
         names, form, sure = instants
-        asked = ""
-        if form == UNKNOWN:
-            asked = f'is {_show_cell(table.column(names[0]))} "d/m/y" or "m/d/y"?'
-            questions.append(f"[time] format: {asked}")
-        shown = ", ".join(f'"{_quote(n)}"' for n in names)
-        column = shown if len(names) == 1 else f"[{shown}]"
-        return [f"column = {column}  # {sure}", f'format = "{form}"' + f"  # {asked}" * bool(asked)], names
+        asked = f'is {_show_cell(table.column(names[0]))} "d/m/y" or "m/d/y"?' if form == UNKNOWN else ""
+        questions += [f"[time] format: {asked}"] * bool(asked)
+        column = names if len(names) > 1 else names[0]
+        return [_write("column", column, sure), _write("format", form, asked)], names
     numbers = [c for c in table.columns if not c.is_text]
     fits = [c for c in numbers if c.is_instant or _has(roles[c.name], "time", "second_of_week")]
     if not fits:  # an index without a name, unless it counts the rows
@@ -195,11 +198,11 @@ def _draft_time(
     if not fits:
         questions.append("[time] column: which column is time?")
         remark = 'no column has a usual name for time; or, of even samples, only: rate = "16 Hz"'
-        return [f'column = "{UNKNOWN}"  # {remark}', f'unit = "{UNKNOWN}"'], ()
+        return [_write("column", UNKNOWN, remark), _write("unit", UNKNOWN)], ()
     c = min(fits, key=lambda c: (c.name != "time", np.mean(np.diff(c.values) > 0) < 0.5, not c.unit))
     unit, remark = _find_unit(replace(c, unit=c.unit.split(" since ")[0]), "time", questions, "[time]")
-    lines = [f'column = "{_quote(c.name)}"  # {"certain" if c.name == "time" else "likely"}']
-    return [*lines, f'unit = "{unit}"' + f"  # {remark}" * bool(remark), *odd.get(c.name, ())], (c.name,)
+    column = _write("column", c.name, "certain" if c.name == "time" else "likely")
+    return [column, _write("unit", unit, remark), *odd.get(c.name, ())], (c.name,)
 
 
 def _find_instants(table: DataTable, roles: Roles) -> Instants | None:
@@ -207,26 +210,21 @@ def _find_instants(table: DataTable, roles: Roles) -> Instants | None:
     if any(c.name == "time" and not c.is_text and c.unit and not are_packed(c.values) for c in table.columns):
         return None
     by_role = {r: c for c in reversed(table.columns) for r in _TIMES[2:] if _has(roles[c.name], r)}
-    if "week" in by_role and "second_of_week" in by_role:
-        return (by_role["week"].name, by_role["second_of_week"].name), "gps", "likely: GPS week and seconds"
+    week, second, date, clock = map(by_role.get, _TIMES[2:])
+    if week is not None and second is not None:
+        return (week.name, second.name), "gps", "likely: GPS week and seconds"
     texts = sorted((c for c in table.columns if c.is_text), key=lambda c: not _has(roles[c.name], "time"))
     parts = [(c, find_parts(_find_first_cell(c))) for c in texts]
     parts += [(c, (True, True)) for c in table.columns if not c.is_text and are_packed(c.values)]
-    candidates: list[Instants] = [
-        ((c.name,), _find_form(c), "certain: a date and a time") for c, both in parts if all(both)
-    ]
-    date, clock = by_role.get("date"), by_role.get("clock")
-    if date is not None and clock is not None and date is not clock:
-        form = _find_form(date).replace("iso", "date clock")
-        of_their_own = len(np.unique(date.values)) == len(table)
-        pair = (date.name, clock.name), form, "likely: a date and a time of the day"
-        candidates.insert(len(candidates) if of_their_own else 0, pair)
-    candidates += [
-        ((c.name,), "clock", "certain: a time of the day, or an elapsed time")
-        for c, (_, timed) in parts
-        if timed
-    ]
-    return next(iter(candidates), None)
+    whole = [((c.name,), _find_form(c), "certain: a date and a time") for c, both in parts if all(both)]
+    of_day = "certain: a time of the day, or an elapsed time"
+    clocks = [((c.name,), "clock", of_day) for c, (_, timed) in parts if timed]
+    if date is None or clock is None or date is clock:
+        return next(iter(whole + clocks), None)
+    form = _find_form(date).replace("iso", "date clock")
+    pair = (date.name, clock.name), form, "likely: a date and a time of the day"
+    dates_differ = len(np.unique(date.values)) == len(table)  # they have times of their own
+    return whole[0] if whole and dates_differ else pair
 
 
 def _find_form(c: DataColumn) -> str:
@@ -264,23 +262,17 @@ def _take_by_unit(
 ) -> dict[str, tuple[DataColumn, Role]]:
     """Channels without a usual name, in any language: the only columns with such a unit, whose names end with an axis."""
     additions: dict[str, tuple[DataColumn, Role]] = {}
-
-    def list_alike(name: str) -> list[DataColumn]:
-        return [c for c in columns if c.unit and units(9.8).fits(c.unit, SI_UNITS[name])]
-
-    for names in (SPECIFIC_FORCE, ANGULAR_RATE):
-        by_stem: dict[str, dict[str, DataColumn]] = {}
-        for c in list_alike(names[0]):
-            by_stem.setdefault(c.name[:-1], {})[c.name[-1].lower()] = c
-        triads = [t for t in by_stem.values() if set(t) == set("xyz")]
-        if len(triads) == 1 and not channels.keys() & {*names}:
-            for n in names:
-                additions[n] = triads[0][n[-1]], Role(n, "guess", why="by its unit and axis")
-    for name in ("G_out", "pressure"):
-        alike = list_alike(name)
-        beside = OUTPUTS if name == "G_out" else (name,)
-        if len(alike) == 1 and not any(n.startswith(beside) for n in channels):
-            additions[name] = alike[0], Role(name, "guess", why="the only column with such a unit")
+    for names in (SPECIFIC_FORCE, ANGULAR_RATE, ("G_out",), ("pressure",)):
+        alike = [c for c in columns if c.unit and units(9.8).fits(c.unit, SI_UNITS[names[0]])]
+        why, beside = "the only column with such a unit", OUTPUTS if names == ("G_out",) else names
+        if len(names) == 3:
+            by_stem: dict[str, list[DataColumn]] = {}
+            for c in sorted(alike, key=lambda c: c.name[-1].lower()):
+                by_stem.setdefault(c.name[:-1], []).append(c)
+            triads = [t for t in by_stem.values() if "".join(c.name[-1] for c in t).lower() == "xyz"]
+            alike, why = triads[0] if len(triads) == 1 else [], "by its unit and axis"
+        if len(alike) == len(names) and not any(n.startswith(beside) for n in channels):
+            additions |= {n: (c, Role(n, "guess", why=why)) for n, c in zip(names, alike, strict=True)}
     return additions
 
 
@@ -300,7 +292,7 @@ def _find_unit(c: DataColumn, name: str, questions: list[str], where: str) -> tu
     si = SI_UNITS.get(name) or (SI_UNITS.get(stem) if stem in DEMODULATED else None)
     unit = units(9.8).find_meant(c.unit, si) if c.unit and si else c.unit
     if unit and is_unit(unit):
-        return _quote(unit), ""
+        return unit, ""
     named = _take_unit(_fold(c.name))[1]
     if not c.unit and named and si is not None and units(9.8).fits(named, si):
         return named, "likely: from its name"
@@ -310,8 +302,7 @@ def _find_unit(c: DataColumn, name: str, questions: list[str], where: str) -> tu
 
 
 def _write_entry(column: str, unit: str, *further: str) -> str:
-    parts = (f'column = "{_quote(column)}"', f'unit = "{_quote(unit)}"', *further)
-    return f"{{ {', '.join(parts)} }}"
+    return f"{{ {', '.join([_write('column', column), _write('unit', unit), *further])} }}"
 
 
 def _make_key(name: str) -> str:
