@@ -268,12 +268,9 @@ def find_codes(values: Array, *, known_only: bool = False) -> list[float]:
 def _find_extremes(x: Array, is_code: Callable[[Array, float], bool]) -> list[float]:
     """Extremes that are codes, one after the other."""
     extremes: list[float] = []
-    while len(x):
-        code = next((v for v in (float(x.min()), float(x.max())) if is_code(x, v)), None)
-        if code is None:
-            break
-        extremes.append(code)
-        x = x[x != code]
+    while len(x) and (codes := [v for v in (float(x.min()), float(x.max())) if is_code(x, v)]):
+        extremes.append(codes[0])
+        x = x[x != codes[0]]
     return extremes
 
 

@@ -63,8 +63,7 @@ _DATE_CLOCK = re.compile(rb"(\d[/.-]\d\d?[/.-]\d+)[ \t]+(\d\d?:\d\d:)")
 class Header:
     """What the columns of a table are called, and where its data begin."""
 
-    names: tuple[str, ...]
-    units: tuple[str, ...]
+    titles: tuple[tuple[str, str], ...]  # names and units
     begins: int  # position of the first row of data
     share: float  # of the rows from there on that are data
     notes: tuple[str, ...] = ()
@@ -97,10 +96,9 @@ def find_header(rows: Sequence[Sequence[str]]) -> Header | None:
     if len(rows[above[-1]]) == size - 1 and _are_numbered([rows[k] for k in alike[first:]], size):
         padded[-1] = ["", *padded[-1][:-1]]  # as R writes a table, without a name for the numbers of the rows
     names, units, notes = _read_header(padded)
-    headings = [h if h[0] else (n.strip(), "") for n, h in zip(names, read_headings(names), strict=True)]
+    titles = [h if h[0] else (n.strip(), "") for n, h in zip(names, read_headings(names), strict=True)]
     return Header(
-        names=tuple(n for n, _ in headings),
-        units=tuple(inner or u for (_, inner), u in zip(headings, units, strict=True)),
+        titles=tuple((n, inner or u) for (n, inner), u in zip(titles, units, strict=True)),
         begins=begins,
         share=sum(data[first:]) / max(1, len(data) - first),
         notes=notes,
@@ -175,7 +173,7 @@ def _make_table(
 ) -> DataTable:
     """The columns (n,) below a header; the first may be an index, which pandas writes without a name."""
     data_columns, odd = [], []
-    for k, (name, unit, x) in enumerate(zip(header.names, header.units, columns, strict=True)):
+    for k, ((name, unit), x) in enumerate(zip(header.titles, columns, strict=True)):
         if name:
             data_columns.append(DataColumn(name, unit, x))
         elif np.any(x != "" if x.dtype == object else np.isfinite(x)):
@@ -191,21 +189,21 @@ def read_csv(path: Path) -> list[DataTable]:
     """The text as one table; UserError if it has no header or lines of different widths."""
     data, notes = _read_text(path)
     delimiter, headings, header = _find_layout(data, path)
-    if delimiter == _BLANKS and "" in header.names:  # a date and a time below one name
+    if delimiter == _BLANKS and not all(n for n, _ in header.titles):  # a date and a time below one name
         data = _DATE_CLOCK.sub(rb"\1T\2", data)
         delimiter, headings, header = _find_layout(data, path)
     if delimiter == _BLANKS:
         data = re.sub(rb"(?m)^[ \t]+|[ \t]+(?=\r?$)", b"", data)
         data, delimiter = re.sub(rb"[ \t]+", b" ", data), " "
     data = _drop_headers(data, delimiter, headings, notes)
-    table, begins = _parse(data, delimiter, len(headings), len(header.names), path, notes)
+    table, begins = _parse(data, delimiter, len(headings), len(header.titles), path, notes)
     begins = [(0, m[1]) for h in headings[-1:] if (m := _LINE.fullmatch(h.decode()))] + begins
     decimal = find_decimal(table.columns)
     columns = [_read_cells(texts, decimal) for texts in table.columns]
     if begins:
         sizes = np.diff([*(row for row, _ in begins), len(table)], prepend=0)
         columns.append(np.repeat(np.array(["", *(name for _, name in begins)], dtype=object), sizes))
-        header = replace(header, names=(*header.names, "line"), units=(*header.units, ""))
+        header = replace(header, titles=(*header.titles, ("line", "")))
     return [_make_table(header, columns, notes, counts=("line", len(headings) + 1), decimal=decimal)]
 
 
@@ -262,13 +260,13 @@ def _find_layout(data: bytes, path: Path) -> tuple[str, list[bytes], Header]:
         except csv.Error as error:
             raise UserError(_NOT_CSV, where=path, found=error) from None
         header = find_header(rows)
-        score = (0.0, 0) if header is None else (header.share, len(header.names))
+        score = (0.0, 0) if header is None else (header.share, len(header.titles))
         if header is not None and (best is None or score > best[0]):
             best = score, delimiter, header, ends
     if best is None:
         raise UserError("the flight file has no header", where=path, expected="time [s],a_x [g],...")
     _, delimiter, header, ends = best
-    require_memory(path, len(data) * len(lines) / (sum(map(len, lines)) or 1) * len(header.names) * 8)
+    require_memory(path, len(data) * len(lines) / (sum(map(len, lines)) or 1) * len(header.titles) * 8)
     above = ends[header.begins - 1] if header.begins else 0
     return delimiter, [x.encode() for x in lines[:above]], header
 
@@ -378,6 +376,6 @@ def _read_sheet(name: str, cells: Iterable[Sequence[Any]]) -> DataTable | None:
     if header is None:
         return None
     data = rows[header.begins :]
-    columns = (np.array([r[k] for _, r in data], dtype=object) for k in range(len(header.names)))
+    columns = (np.array([r[k] for _, r in data], dtype=object) for k in range(len(header.titles)))
     counts = ("row", data[0][0] if data else 1)
     return _make_table(header, columns, (), line=name, part=name, counts=counts)
