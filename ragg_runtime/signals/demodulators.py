@@ -21,9 +21,9 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
+import scipy  # its parts are loaded when they are first used: commands without a flight need none
 from numpy.polynomial.polynomial import polyval
 from numpy.typing import NDArray
-from scipy.special import i0
 
 from ragg_runtime.base.errors import UserError, check_choice, count
 from ragg_runtime.signals.fir import Series, convolve
@@ -84,7 +84,7 @@ def low_pass(rate: float, *, cutoff: float = CUTOFF, attenuation: float = ATTENU
     half = (length // 2) / REFERENCE
     reach = int(half * rate * (1 + 1e-12))
     t = np.arange(-reach, reach + 1) / rate
-    window = i0(kaiser_beta(attenuation) * np.sqrt(np.clip(1 - (t / half) ** 2, 0.0, None)))
+    window = scipy.special.i0(kaiser_beta(attenuation) * np.sqrt(np.clip(1 - (t / half) ** 2, 0.0, None)))
     taps = np.sinc(2 * cutoff * t) * window
     return np.asarray(taps / np.sum(taps), dtype=np.float64)
 

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import cache
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import scipy  # its parts are loaded when they are first used: commands without a flight need none
 from numpy.typing import NDArray
-from scipy import linalg, ndimage
 
 from ragg_runtime.signals.fir import fill_gaps
-
-if TYPE_CHECKING:
-    from scipy.interpolate import BSpline
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -80,7 +76,7 @@ def _differentiate_run(x: Array) -> Array:
     x = x - x[..., :1]  # a large constant would cost digits at the ends
     window = min(n, WINDOW)
     half = window // 2
-    result = np.asarray(ndimage.correlate1d(x, weights(window, half), axis=-1, mode="nearest"))
+    result = np.asarray(scipy.ndimage.correlate1d(x, weights(window, half), axis=-1, mode="nearest"))
     for k in range(half):
         result[..., k] = x[..., :window] @ weights(window, k)
         result[..., n - 1 - k] = -(x[..., : -window - 1 : -1] @ weights(window, k))
@@ -140,17 +136,8 @@ def bridge_gaps(x: Array, present: Mask, *, smooth: bool = False, turning: bool 
     for group in np.split(np.arange(len(at)), wide) if smooth else ():
         if len(group) > 1:
             inside, degree = slice(at[group[0]], at[group[-1]] + 1), min(BRIDGE, len(group) // 2 * 2 - 1)
-            bridge[inside] = _fit_spline(at[group], off[group], degree)(k[inside])
+            bridge[inside] = scipy.interpolate.make_interp_spline(at[group], off[group], degree)(k[inside])
     return np.where(present, x, bridge + np.polyval(turn, k))
-
-
-def _fit_spline(at: NDArray[Any], x: Array, degree: int) -> BSpline:
-    """The spline through samples (n,) or (n, series) at places (n,)."""
-    from scipy.interpolate import (
-        make_interp_spline,
-    )  # slow to import, and commands without a flight need none
-
-    return make_interp_spline(at, x, degree)
 
 
 PREDICTED = 24  # samples from which an autoregressive series predicts the next: as many as enter a derivative
@@ -171,7 +158,7 @@ def predict_missing(x: Array, present: Mask) -> Array:
     taps = np.r_[1.0, -np.linalg.lstsq(learnt[:, :-1], learnt[:, -1], rcond=1e-12)[0][::-1]]
     try:
         return np.asarray(fill_gaps((bridged - mean)[None], fixed, taps, rounding=0.0)[0] + mean)
-    except linalg.LinAlgError:  # as singular as a constant
+    except np.linalg.LinAlgError:  # as singular as a constant
         return bridged
 
 
@@ -187,7 +174,9 @@ def interpolate_even(x: Sequence[Array], at: Array, *, integral: bool = False) -
     rows = np.stack(x, axis=-1)
     degree = min(SPLINE, (len(rows) - 1) // 2 * 2 - 1)
     first = rows[:1]  # a large constant would cost digits
-    spline = _fit_spline(np.arange(len(rows), dtype=np.float64), rows - first, degree)
+    spline = scipy.interpolate.make_interp_spline(
+        np.arange(len(rows), dtype=np.float64), rows - first, k=degree
+    )
     values = spline(at) + first if not integral else spline.antiderivative()(at) + first * at[:, None]
     return np.asarray(values.T)
 
@@ -207,7 +196,7 @@ def smooth_slope(x: Array, half: int, order: int, degree: int) -> Array:
     if order == 2:
         middle = middle.copy()  # its sum must be zero, or a series far from zero would leave its rounding
         middle[half] = -2.0 * np.cumsum(middle[:half])[-1]
-    ndimage.correlate1d(x, middle, output=slope, mode="nearest")
+    scipy.ndimage.correlate1d(x, middle, output=slope, mode="nearest")
     for k in range(half):
         slope[k] = np.cumsum(polynomial_weights(half, k - half, order, degree) * x[:window])[-1]
         slope[len(x) - 1 - k] = np.cumsum(polynomial_weights(half, half - k, order, degree) * x[-window:])[-1]
@@ -247,7 +236,7 @@ def choose_degree(x: Iterable[Array], half: int) -> int:
     for run in x:
         if len(run) >= 2 * (2 * half + 1):
             inner = slice(half, len(run) - half)
-            squares += [float(np.sum(ndimage.correlate1d(run, w)[inner] ** 2)) for w in kernels]
+            squares += [float(np.sum(scipy.ndimage.correlate1d(run, w)[inner] ** 2)) for w in kernels]
     gains = np.array([float(w @ w) for w in kernels])
     noise = np.maximum.accumulate((squares / gains)[::-1])[::-1]
     grows = 2 * noise[1:] * gains[:-1] - squares[:-1]
@@ -328,7 +317,7 @@ def differentiate_rate(omega: Array, rate: float) -> tuple[Array, Mask]:
         n = run.stop - run.start
         if n > 2 * REACH:
             x = omega[run] - omega[run.start]
-            inner = ndimage.correlate1d(x, wide_weights(), mode="nearest")[REACH : n - REACH]
+            inner = scipy.ndimage.correlate1d(x, wide_weights(), mode="nearest")[REACH : n - REACH]
             result[run.start + REACH : run.stop - REACH] = inner * rate
         unsure = min(REACH, n // 8)
         sure[run.start + unsure : run.stop - unsure] = n > 1
@@ -341,7 +330,11 @@ def resample(x: Array, time: Array, instants: Array) -> Array:
     for run in runs(np.isfinite(x)):
         size = run.stop - run.start
         degree = min(DEGREE, (size - 1) // 2 * 2 - 1)
-        values[run] = x[run] if size < 3 else _fit_spline(time[run], x[run], degree)(instants[run])
+        values[run] = (
+            x[run]
+            if size < 3
+            else scipy.interpolate.make_interp_spline(time[run], x[run], degree)(instants[run])
+        )
     return values
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Literal, TypeVar
 
 import numpy as np
+import scipy  # its parts are loaded when they are first used: commands without a flight need none
 from numpy.typing import NDArray
-from scipy import fft, linalg
 
 from ragg_runtime.base.progress import split_range
 
@@ -38,14 +38,14 @@ def filter_columns(columns: Floats, taps: Array, tail: Floats | None = None, lea
     reach = min(before + n, len(taps))
     nonzero = find_nonzero(columns) if tail is None else find_nonzero(columns) | find_nonzero(tail)
     # What goes round in the transform may fall on samples that are not wanted.
-    size = fft.next_fast_len(before + n + max(0, reach - 1 - before - lead), real=True)
-    gain = fft.rfft(taps[:reach].astype(columns.dtype), size)
+    size = scipy.fft.next_fast_len(before + n + max(0, reach - 1 - before - lead), real=True)
+    gain = scipy.fft.rfft(taps[:reach].astype(columns.dtype), size)
     result, places = np.zeros((len(columns), n - lead), dtype=columns.dtype), np.flatnonzero(nonzero)
     for group in split_range(len(places), max(GROUP, BLOCK // size)):
         index = places[group]
         part = columns[index] if tail is None else np.concatenate([tail[index], columns[index]], axis=1)
-        waves = fft.rfft(part, size, axis=1) * gain
-        result[index] = fft.irfft(waves, size, axis=1)[:, before + lead : before + n]
+        waves = scipy.fft.rfft(part, size, axis=1) * gain
+        result[index] = scipy.fft.irfft(waves, size, axis=1)[:, before + lead : before + n]
     return result
 
 
@@ -83,7 +83,7 @@ def fill_gaps(columns: Floats, present: NDArray[np.bool_], taps: Array, rounding
         G[k, : len(lag)][near] = inverse[lag[near]]
     b = convolve(columns, np.concatenate([inverse[:0:-1], inverse]), "same")[:, missing]
     filled = columns.copy()
-    filled[:, missing] -= linalg.solveh_banded(G, b.T, lower=True).T
+    filled[:, missing] -= scipy.linalg.solveh_banded(G, b.T, lower=True).T
     return filled
 
 
