@@ -9,7 +9,7 @@ clock or the sheet itself, is compared by it. Rows are taken as they are or with
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -18,19 +18,17 @@ from numpy.typing import NDArray
 from generated.output_effects.saturation import clipped
 from ragg_runtime.estimation.least_squares import compute_r_factor
 from ragg_runtime.estimation.regressors import Column, list_base_columns, list_own_columns, put_derivatives
-from ragg_runtime.instrument.demodulation import OURS
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc, Output
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import GRADIENT
-from ragg_runtime.model.model import Model, make_vector, scale_factor
+from ragg_runtime.model.model import Model, evaluate_voltages, make_vector, scale_factor
 from ragg_runtime.model.record import (
     SPIN,
+    Record,
     RecordedSeries,
     disc_angle,
     find_recorded,
-    find_start,
-    make_kernel,
     make_spin,
     record,
     strip_derivative,
@@ -53,44 +51,34 @@ class Rows:
 
     sampler: Sampler  # what they are taken from
     data: Array  # (m, n) V: the output; of channels k_ggi (inline/2, -cross)
-    time: Array  # (n,) s since the flight's first sample
-    phi: Array  # (n,) disc angle, rad
-    channels: Mapping[
-        str, Array
-    ]  # name -> (n,) SI; time derivatives (d_a_x) that the model asks for among them
-    usable: Mask  # (n,) rows whose output is there
+    record: Record  # their motion and disc angle; valid where the output is there
 
-    @property
-    def inputs(self) -> Array:
-        """(n_inputs, n) in the order of the model's INPUTS; what was not recorded is zero."""
-        nothing = np.zeros(len(self.time))
-        return np.array([self.channels.get(name, nothing) for name in self.sampler.model.chain.INPUTS])
+    def change(self, columns: Mapping[str, Array]) -> Rows:
+        """The same with other columns (n,) of motion, or of the disc angle."""
+        return replace(self, record=replace(self.record, wide={**self.record.wide, **columns}))
 
     def observe(self, raw: Array) -> Array:
         """(..., m, n): an output as it is recorded, from what it is before demodulation."""
         if not self.sampler.recorded.demodulated:
             return raw
-        carriers = 2 * np.stack([np.sin(2 * self.phi), np.cos(2 * self.phi)])
-        return convolve(raw * carriers, self.sampler.taps, "same")
+        cosine, sine = self.record.quadratures
+        return convolve(2 * raw * np.stack([sine, cosine]), self.record.low_pass.centred, "same")
 
     @property
     def inner(self) -> Index:
         """Rows that are fitted: of channels those where the demodulator has seen enough of the record on either side."""
-        if not self.sampler.recorded.demodulated:
-            return np.arange(len(self.time))
-        edge = len(self.sampler.taps) // 2
-        rows = edge + np.flatnonzero(self.usable[edge : len(self.usable) - edge])
-        return rows[:: max(1, len(rows) // TELLING)]
+        usable, edge = self.record.valid, self.sampler.reach
+        rows = edge + np.flatnonzero(usable[edge : len(usable) - edge])
+        return rows[:: max(1, len(rows) // TELLING)] if edge else np.arange(len(usable))
 
     def predict(self, p: Array) -> Array:
         """(m, n) V: the output of a model with parameters p, SI, before any demodulation."""
         s = self.sampler
-        voltages = s.model.chain.voltages(self.time, self.inputs, p, self.phi, s.output.members)
-        return s.recorded.of_voltages(s.output, voltages)
+        return s.recorded.of_voltages(s.output, evaluate_voltages(s.model.chain, self.record, p, s.output))
 
     @property
     def gradient_recorded(self) -> bool:
-        return all(g in self.channels for g in GRADIENT)
+        return all(g in self.record.wide for g in GRADIENT)
 
 
 @dataclass(frozen=True)
@@ -103,13 +91,15 @@ class Sampler:
     place: int  # of the output
     recorded: RecordedSeries  # the form in which it is recorded
     columns: tuple[str, ...]  # which hold it
-    usable: Mask  # (N,): it is there and not saturated
-    derived: Mapping[str, Array]  # time derivatives that the model asks for
-    taps: Array  # low-pass of the demodulator
+    record: Record  # the whole flight, with the time derivatives that the model asks for; valid where the output is there and not saturated
 
     def with_flight(self, flight: Flight) -> Sampler:
         """The same of another flight."""
         return make_sampler(self.model, self.instrument, flight, self.place)
+
+    @property
+    def usable(self) -> Mask:
+        return self.record.valid
 
     @property
     def output(self) -> Output:
@@ -123,12 +113,17 @@ class Sampler:
     def has_encoder(self) -> bool:
         return self.disc.angle_column in self.flight.channels
 
+    @property
+    def reach(self) -> int:
+        """Samples on either side that a recorded value of the output is made of."""
+        return len(self.record.low_pass.centred) // 2 if self.recorded.demodulated else 0
+
     def rows(self, first: int = 0, last: int | None = None, most: int = MOST) -> Index:
         """At most ``most`` usable rows of a segment; neighbours where only the channels are recorded."""
         if self.recorded.demodulated:
             whole = np.arange(first, len(self.usable) if last is None else last)
-            spacing = len(self.usable) / max(float(np.sum(self.usable)), 1.0)
-            return whole[: max(most, len(self.taps) + max(2 * len(self.taps), round(WANTED * spacing)))]
+            spacing, taps = len(self.usable) / max(float(np.sum(self.usable)), 1.0), 2 * self.reach + 1
+            return whole[: max(most, taps + max(2 * taps, round(WANTED * spacing)))]
         positions = np.flatnonzero(self.usable[first:last]) + first
         return positions[np.linspace(0, len(positions) - 1, min(most, len(positions))).astype(np.intp)]
 
@@ -159,31 +154,33 @@ class Sampler:
         backwards
             Let the disc turn the other way.
         """
-        x, n = self.flight, len(self.flight)
+        r, n = self.record, len(self.flight)
         rows = self.rows() if rows is None else rows
         at = np.array([rows, rows + motion_later, rows + output_later])
         inside = ((at >= 0) & (at < n)).all(axis=0)
         rows, moved_to, output_at = at[:, inside]
-        time = x.time[rows] - x.time[0]
-        f = self.disc.spin_frequency if spin_frequency is None else spin_frequency
-        if self.has_encoder and spin_frequency is None:
-            phi = x.channels[self.disc.angle_column][rows]
-        else:
-            phi = disc_angle(time, f, find_start(x, self.instrument))
-        channels = {
+        time = r.time[rows]
+        wide = {
             name: v[moved_to if {find_stem(name), strip_derivative(name)} & {*of} else rows]
-            for name, v in (*x.channels.items(), *self.derived.items())
+            for name, v in r.wide.items()
         }
-        if spin_frequency is not None:
-            channels |= make_spin(f, len(rows))
+        phi = wide.get(r.angle_column)
+        if phi is None or spin_frequency is not None:
+            f = r.spin_frequency if spin_frequency is None else spin_frequency
+            phi = disc_angle(time, f, r.start)
+            wide |= make_spin(f, len(rows))
         if backwards:
             phi = -phi
-            channels |= {name: -channels[name] for name in SPIN if name in channels}
-        data = np.nan_to_num(np.stack([x.outputs[v][output_at] for v in self.columns]), copy=False)
+            wide |= {name: -wide[name] for name in SPIN if name in wide}
+        wide[r.angle_column] = phi + (phase[inside] if isinstance(phase, np.ndarray) else phase)
+        data = np.nan_to_num(np.stack([self.flight.outputs[v][output_at] for v in self.columns]), copy=False)
         if self.recorded.demodulated:  # inline and cross
             data *= self.instrument.scale_factor * np.array([[0.5], [-1.0]])
-        turned = phase[inside] if isinstance(phase, np.ndarray) else phase
-        return Rows(self, data, time, phi + turned, channels, self.usable[output_at])
+        return Rows(self, data, replace(r, time=time, wide=wide, valid=self.usable[output_at]))
+
+    def fit(self, rows: Index | None = None, **options: Any) -> LinearFit:
+        """What the model leaves of rows, taken with these options."""
+        return fit_rows(self.take(rows, **options))
 
 
 def find_stem(name: str) -> str:
@@ -201,20 +198,10 @@ def make_sampler(model: Model, instrument: Instrument, flight: Flight, place: in
     usable = flight.valid & np.isfinite([flight.outputs[name] for name in columns]).all(axis=0)
     if output.name in flight.outputs and usable.any():
         usable &= ~clipped(flight.outputs[output.name], usable)
-    demodulation = flight.demodulation or instrument.demodulation or OURS
-    whole = record(flight, instrument, place)
-    asked = (n for n in model.chain.INPUTS if strip_derivative(n) != n)
-    return Sampler(
-        model=model,
-        instrument=instrument,
-        flight=flight,
-        place=place,
-        recorded=form,
-        columns=columns,
-        usable=usable,
-        derived={n: x for n in asked if (x := whole.series(n)) is not None},
-        taps=make_kernel(demodulation, flight.rate).centred if form.demodulated else np.zeros(0),
-    )
+    r = record(flight, instrument, place)
+    derivatives = {n: x for n in model.chain.INPUTS if n not in r.wide and (x := r.series(n)) is not None}
+    r = replace(r, wide={**r.wide, **derivatives}, valid=usable)
+    return Sampler(model, instrument, flight, place, form, columns, r)
 
 
 GRADIENT_SCALE = 1e4  # prior of a gravity gradient that was not recorded, Eo
@@ -316,7 +303,7 @@ def linearise(rows: Rows) -> tuple[Array, Array]:
     s, p = rows.sampler, make_vector(rows.sampler.model, rows.sampler.instrument)
     nominal, parameters = rows.predict(p), [c for c, _ in list_columns(s)]
     columns = np.zeros((len(parameters), *nominal.shape))
-    where = (rows.time, rows.inputs, rows.phi)
+    where = (rows.record.time, rows.record.inputs(s.model.chain), rows.record.phi)
     put_derivatives(columns, s.model.chain, parameters, where, p, s.recorded, s.output)
     eotvos = scale_factor(s.model, p, s.place)
     gradient = () if rows.gradient_recorded else (_make_gradient(rows),)
@@ -328,7 +315,7 @@ def _make_gradient(rows: Rows) -> Array:
     """(2, m, N): columns of a constant gradient, before demodulation."""
     o = rows.sampler.output
     share = np.array(o.carriers) * np.array(o.radii) / max((*o.radii, 1e-300)) / len(o.members)
-    wave = GRADIENT_SCALE * share[:, None] * np.exp(2j * rows.phi)
+    wave = GRADIENT_SCALE * share[:, None] * np.exp(2j * rows.record.phi)
     return np.stack([rows.sampler.recorded.of_voltages(o, x) for x in (wave.imag, wave.real)])
 
 

@@ -15,7 +15,6 @@ from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.instrument import PARAMETERS
 from ragg_runtime.io.record import ANGULAR_ACCELERATION
 from ragg_runtime.model.model import make_vector
-from ragg_runtime.model.record import make_kernel
 from ragg_runtime.screening import timing
 from ragg_runtime.screening.linear_fit import (
     INDEPENDENT,
@@ -67,7 +66,7 @@ class Finding:
 
 def find_mistake(s: Sampler) -> Finding | None:
     """The hypothesis that explains a record, or ``None`` if it looks as it should (or none explains it)."""
-    before = fit_rows(s.take())
+    before = s.fit()
     if before.rms < SUSPICIOUS and before.surprise < SURPRISING and before.kept > 1.0 - RARE:
         return None
     hypotheses = [*_propose_sheets(s), *_propose_columns(s), *timing.propose_times(s)]
@@ -113,7 +112,7 @@ def _propose_sheets(s: Sampler) -> Iterator[Hypothesis]:
             for usual in [q.plausible_si(instrument.accelerometers[q.name], instrument.g0)]
         }
         wider = replace(instrument, widths={**instrument.widths, **widths})
-        fitted = fit_rows(replace(s, instrument=wider).take())
+        fitted = replace(s, instrument=wider).fit()
         yield Hypothesis(
             what=f"the test sheet is too confident: {_describe_farthest(s, fitted)}",
             remedy="check it, or give the parameter a larger sigma in model.toml",
@@ -165,7 +164,7 @@ def list_mistakes(rows: Rows) -> Iterator[ColumnMistake]:
     yield from list_channel_mistakes(rows) if rows.sampler.recorded.demodulated else _propose_outputs(rows)
     for stem in ("a", "omega", *(() if derived else ("omegadot",)), *(["Gamma"] * rows.gradient_recorded)):
         columns = "Gamma" if stem == "Gamma" else ", ".join(f"{stem}_{k}" for k in "xyz")
-        first = next(n for n in rows.channels if find_stem(n) == stem)
+        first = next(n for n in rows.record.wide if find_stem(n) == stem)
         for what, remedy, factor in _list_units(rows, columns, first, stem):
             if stem == "omega" and derived:
                 yield ColumnMistake(what, remedy, _scale(("omega", "omegadot"), factor))
@@ -206,8 +205,7 @@ def _list_units(rows: Rows, columns: str, first: str, quantity: str) -> Iterator
 
 def _scale(stems: tuple[str, ...], factor: float) -> Callable[[Rows], Rows]:
     def undo(rows: Rows) -> Rows:
-        changed = {n: factor * x for n, x in rows.channels.items() if find_stem(n) in stems}
-        return replace(rows, channels={**rows.channels, **changed})
+        return rows.change({n: factor * x for n, x in rows.record.wide.items() if find_stem(n) in stems})
 
     return undo
 
@@ -292,9 +290,9 @@ def _turn(rows: Rows, group: tuple[str, ...], order: tuple[int, ...], signs: tup
     changed: dict[str, Array] = {}
     for prefix, q in product(("", "d_", "d2_"), group):
         names = [f"{prefix}{q}_{k}" for k in "xyz"]
-        if all(n in rows.channels for n in names):
-            changed |= {names[k]: signs[k] * rows.channels[names[order[k]]] for k in range(3)}
-    return replace(rows, channels={**rows.channels, **changed})
+        if all(n in rows.record.wide for n in names):
+            changed |= {names[k]: signs[k] * rows.record.wide[names[order[k]]] for k in range(3)}
+    return rows.change(changed)
 
 
 # --- channels that another demodulator has made ---------------------------------------------------------
@@ -313,13 +311,10 @@ CLEARLY = 1.1  # factor by which less must be left than without any low-pass
 
 def _propose_demodulator(s: Sampler) -> Hypothesis:
     """The low-pass, of those that people use, with which the model leaves least of inline and cross."""
-    rows, rate, half = s.take(), s.flight.rate, len(s.taps) // 2
+    rows, rate = s.take(), s.flight.rate
 
     def fit(d: Demodulation) -> LinearFit:
-        taps = make_kernel(d, rate).centred
-        spare = len(taps) // 2 - half
-        taps = taps[spare:-spare] if spare > 0 else np.pad(taps, -spare)
-        return fit_rows(replace(rows, sampler=replace(s, taps=taps)))
+        return fit_rows(replace(rows, record=replace(rows.record, demodulation=d)))
 
     def find_corner(low_pass: Callable[[float], Demodulation], corners: int) -> Demodulation:
         grid = np.linspace(np.log(LOWEST), np.log(min(HIGHEST, rate / 4)), corners)

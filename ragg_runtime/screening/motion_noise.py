@@ -26,7 +26,7 @@ from ragg_runtime.io.record import (
     Flag,
 )
 from ragg_runtime.model.model import scale_factor
-from ragg_runtime.screening.linear_fit import Sampler, fit_rows
+from ragg_runtime.screening.linear_fit import Sampler
 from ragg_runtime.screening.readings import change_columns
 from ragg_runtime.signals.derivative import PREDICTED, find_short_runs, predict_missing, runs
 from ragg_runtime.signals.fir import find_step
@@ -121,7 +121,7 @@ def smooth_noisy_motion(s: Sampler) -> Flight:
         return s.flight  # of motion that is held at a lower rate, for example, nothing can be told
     whole, tried = slice(0, len(valid)), _find_middle(s.usable)
     rows = s.rows(tried.start, tried.stop)
-    before = fit_rows(s.take(rows))
+    before = s.fit(rows)
     for names in (SPECIFIC_FORCE, ANGULAR_RATE, ANGULAR_ACCELERATION, GRADIENT):
         if names is ANGULAR_ACCELERATION and names[0] not in s.flight.written:
             continue  # derived from the rates
@@ -131,7 +131,7 @@ def smooth_noisy_motion(s: Sampler) -> Flight:
         if not noise or _compare(before.p, s, _change(s, noisier), rows) < NOTICED * before.rms:
             continue
         smoothed = _smooth(s, noise, tried)
-        after = fit_rows(smoothed.take(rows))
+        after = smoothed.fit(rows)
         if after.rms >= FALLS * before.rms:
             continue
         flag = _describe(s, noise, before.rms, after.rms)
@@ -161,10 +161,8 @@ def _smooth(s: Sampler, noise: Mapping[str, MotionNoise], rows: slice) -> Sample
 
 def _compare(p: Array, one: Sampler, other: Sampler, rows: Index) -> float:
     """Eo rms: how far apart the outputs of a model with parameters ``p`` are at the rows of two flights."""
-    evaluate = one.model.chain.output
-    first, second = (
-        evaluate(r.time, r.inputs, p, r.phi, which=one.place) for r in (one.take(rows), other.take(rows))
-    )
+    chain, records = one.model.chain, (one.take(rows).record, other.take(rows).record)
+    first, second = (chain.output(r.time, r.inputs(chain), p, r.phi, which=one.place) for r in records)
     return float(np.std(second - first)) / abs(scale_factor(one.model, p, one.place))
 
 

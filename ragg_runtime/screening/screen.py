@@ -26,7 +26,7 @@ from ragg_runtime.io.sampling import (
 )
 from ragg_runtime.model.model import Model, scale_factor
 from ragg_runtime.model.record import EVEN, find_recorded, find_start, list_recorded_channels
-from ragg_runtime.screening.linear_fit import INDEPENDENT, Sampler, find_inliers, fit_rows, make_sampler
+from ragg_runtime.screening.linear_fit import INDEPENDENT, Sampler, find_inliers, make_sampler
 from ragg_runtime.screening.mistakes import Finding, find_mistake
 from ragg_runtime.screening.motion_noise import smooth_noisy_motion
 from ragg_runtime.screening.readings import (
@@ -339,12 +339,12 @@ def _correct_clock(s: Sampler) -> Flight:
         return x
     if any(not c.until for c in steps):  # answered below
         x = replace(x, notes=tuple(n for n in x.notes if not n.endswith(WAS_SET)))
-    recorded = fit_rows(s.take())
+    recorded = s.fit()
     even = s.with_flight(replace(x, time=instants, began=(x.began or 0.0) + float(instants[0] - x.time[0])))
     clocks = [(c, _count_times(x, c, first, step)) for c in ([steps, *([c] for c in steps)] if steps else [])]
     if len(steps) > 1:
         clocks.append((steps, _count_times(x, steps, *fit_clock_put_right(x.time, steps))))
-    gains = [recorded.misfit - fit_rows(s.with_flight(flight).take()).misfit for _, flight in clocks]
+    gains = [recorded.misfit - s.with_flight(flight).fit().misfit for _, flight in clocks]
     gain = max(gains, default=0.0)
     if INDEPENDENT * gain > CLOCK:
         jumps, flight = clocks[gains.index(gain)]
@@ -412,7 +412,7 @@ def _leave_out_output_spikes(s: Sampler) -> Flight:
         flags.append(Flag((name,), text))
     valid = np.array(x.valid)
     if not s.recorded.demodulated and s.usable.any():  # a demodulator has smeared them
-        for column, residual in zip(s.columns, _compute_residual(s, fit_rows(s.take()).p), strict=True):
+        for column, residual in zip(s.columns, _compute_residual(s, s.fit().p), strict=True):
             spikes = find_spikes(residual, s.usable)
             valid &= ~spikes
             flags += [Flag((column,), describe_spikes(column, spikes, x.time))] if spikes.any() else []

@@ -85,16 +85,11 @@ def propose_times(s: Sampler) -> list[Hypothesis]:
     return hypotheses
 
 
-def _fit(s: Sampler, rows: Index, **options: Any) -> LinearFit:
-    """What the model leaves of rows, taken with options of :meth:`Sampler.take`."""
-    return fit_rows(s.take(rows, **options))
-
-
 def _propose_spin(s: Sampler) -> list[Hypothesis]:
     """The spin rate at which the model explains most, coarse to fine: half a turn of error at each step."""
     x, f0 = s.flight, s.disc.spin_frequency
     remedy = "reverse the sign of spin_angle, or turn the axes of the record (y and z reversed)"
-    fitted = fit_rows(s.take(backwards=True))
+    fitted = s.fit(backwards=True)
     backwards = Hypothesis("the disc turns the other way", remedy, fitted, COST - 1.0)
     late = 0.0 if s.has_encoder else abs(find_start(x, s.instrument))
     if late > LATEST:
@@ -106,10 +101,10 @@ def _propose_spin(s: Sampler) -> list[Hypothesis]:
         step = 0.1 / (late + last / x.rate)
         grid = best + step * np.arange(-np.ceil(width / step), np.ceil(width / step) + 1)
         rows = s.rows(0, last, 600)
-        best = float(min(grid, key=lambda f: _fit(s, rows, spin_frequency=f).misfit))
+        best = float(min(grid, key=lambda f: s.fit(rows, spin_frequency=f).misfit))
         width, span = 2 * step, span * 4
     near = best + step * np.arange(-1, 2)
-    best = find_least(lambda f: _fit(s, rows, spin_frequency=f).misfit, near, 1e-9 * abs(f0))
+    best = find_least(lambda f: s.fit(rows, spin_frequency=f).misfit, near, 1e-9 * abs(f0))
     rate, remedy = write_rate(best, x.duration), "record spin_angle"
     what = f"the spin rate is {rate} Hz, not the model's {f0:.9g} Hz ({100 * (best / f0 - 1):+.2g} %)"
     if s.has_encoder:
@@ -125,7 +120,7 @@ def _propose_spin(s: Sampler) -> list[Hypothesis]:
             remedy += "; if times were made from row numbers, rows may be missing: use the recorder's time"
     elif not s.has_encoder:
         return [backwards]
-    fitted = fit_rows(s.take(spin_frequency=best))
+    fitted = s.fit(spin_frequency=best)
     return [Hypothesis(what, remedy, fitted, COST, effects=("spin-rate-offset",)), backwards]
 
 
@@ -139,7 +134,7 @@ def write_rate(f: float, duration: float) -> str:
 def _propose_phase(s: Sampler) -> list[Hypothesis]:
     """Another disc angle at the first sample: as counted from there in the place of t = 0, or the other way round; or any."""
     rows, round_about = s.rows(most=600), np.deg2rad(np.arange(0.0, 360.0, 10.0))
-    best = _wrap(find_least(lambda a: _fit(s, rows, phase=a).misfit, round_about, np.deg2rad(0.05)))
+    best = _wrap(find_least(lambda a: s.fit(rows, phase=a).misfit, round_about, np.deg2rad(0.05)))
     if abs(best) < LEAST_PHASE:
         return []
     starts = [find_start(s.flight, replace(s.instrument, angle_origin=o)) for o in ORIGINS]
@@ -153,14 +148,14 @@ def _propose_phase(s: Sampler) -> list[Hypothesis]:
             f'write angle_origin = "{ORIGINS[by_zero]}" under [model] of model.toml if that is so, else'
             f' angle_origin = "{ORIGINS[not by_zero]}"; or record spin_angle'
         )
-        return [Hypothesis(what, remedy, fit_rows(s.take(phase=turn)), kind="origin", calming=True)]
+        return [Hypothesis(what, remedy, s.fit(phase=turn), kind="origin", calming=True)]
     true, believed = (np.rad2deg(_wrap(a)) for a in (start + best, start))
     what = (
         f"the disc was at {true:.4g} degrees at the first sample, not at {believed:.4g}"
         " (a file cut out of a longer one?)"
     )
     remedy = "record spin_angle, or count time from an instant with angle 0"
-    return [Hypothesis(what, remedy, fit_rows(s.take(phase=best)), COST, effects=("spin-phase-offset",))]
+    return [Hypothesis(what, remedy, s.fit(phase=best), COST, effects=("spin-phase-offset",))]
 
 
 def _wrap(angle: float) -> float:
@@ -189,7 +184,7 @@ def _propose_losses(s: Sampler) -> list[Hypothesis]:
         advance = abs(float(angle[-1] - angle[0]))
         number = round(advance / abs(2 * np.pi * f) * rate)
         if advance > LEAST_TURN:
-            fitted = _fit(s, rows, phase=np.interp(rows, at, angle - angle[0]))
+            fitted = s.fit(rows, phase=np.interp(rows, at, angle - angle[0]))
             candidates.append((fitted, f"{kind} (about {number} of {len(s.flight)})"))
     if not candidates:
         return []
@@ -227,7 +222,7 @@ def propose_parts(s: Sampler) -> list[Hypothesis]:
     near = spacing * np.array([-1.0, 0.0, 1.0])
     windows = [(a, b) for a, b in combinations(edges, 2) if b - a <= n / 2 + 1]
     first, last = refine(*refine(*min(windows, key=lambda x: judge(*x)[0])))
-    rest = _fit(s, rows[(rows < first) | (rows >= last)])
+    rest = s.fit(rows[(rows < first) | (rows >= last)])
     if judge(first, last)[1] < LARGE or rest.share > SMALL:
         return []
     begins, ends = (f"t = {s.flight.time[min(int(k), n - 1)]:.4g} s" for k in (first, last))
@@ -283,7 +278,7 @@ def _propose_shifts(s: Sampler) -> list[Hypothesis]:
         what = f"{x.name} {x.describe(k, rate)} against {x.against}"
         remedy = f"shift the {x.columns} by {abs(k) / rate:.6g} s"
         effects, cost = (("time-offset",), COST) if x in (_MOTION, _OUTPUT) else ((), COST + 1.0)
-        shifts.append(Hypothesis(what, remedy, fit_rows(s.take(**x.options(s, k))), cost, "shift", effects))
+        shifts.append(Hypothesis(what, remedy, s.fit(**x.options(s, k)), cost, "shift", effects))
     return shifts
 
 
@@ -308,7 +303,7 @@ def _propose_slips(s: Sampler) -> list[Hypothesis]:
         rows = s.rows(reach, n - reach, SLIP_ROWS)
         for late in _follow_lags(s, rows, sorted({0, *lags}), x) if any(lags) else ():
             if np.ptp(late):
-                fits.append((_fit(s, rows, **x.options(s, late)).misfit, x, rows, late))
+                fits.append((s.fit(rows, **x.options(s, late)).misfit, x, rows, late))
     if not fits:
         return []
     _, x, rows, late = min(fits, key=lambda one: one[0])
@@ -327,7 +322,7 @@ def _propose_slips(s: Sampler) -> list[Hypothesis]:
     if not slips or len(slips) > MOST_SLIPS:
         return []
     what, remedy = _describe_losses(s, slips) if x is _RECORD else _describe_slips(s, x, slips)
-    return [Hypothesis(what, remedy, _fit(s, rows, **x.options(s, late)), COST + 1.0)]
+    return [Hypothesis(what, remedy, s.fit(rows, **x.options(s, late)), COST + 1.0)]
 
 
 def _describe_slips(s: Sampler, x: _Late, slips: Sequence[tuple[float, int, int]]) -> tuple[str, str]:
@@ -360,7 +355,7 @@ def _find_lag(s: Sampler, rows: Index, lags: Sequence[int], x: _Late) -> int:
     misfits: dict[int, float] = {}
     untried = [*lags]
     while untried and len(misfits) < MOST_SHIFTS:
-        misfits |= {k: _fit(s, rows, **x.options(s, k)).misfit for k in untried}
+        misfits |= {k: s.fit(rows, **x.options(s, k)).misfit for k in untried}
         best = min(misfits, key=lambda k: misfits[k])
         untried = [k for d in (-1, 1) if (k := best + d or d) not in misfits]  # over 0, the record as it is
     return best
@@ -437,5 +432,5 @@ def _mix(s: Sampler, rows: Index) -> tuple[NDArray[np.complex128], NDArray[np.co
     """The output at the spin rate, and the specific force in the disc's plane, of neighbouring rows of a record, (n,) each."""
     whole = s.take(rows)
     data = whole.data[0] if len(whole.data) == 1 else whole.data[0] - whole.data[1]
-    output = np.where(s.usable[rows], data, 0.0) * np.exp(1j * whole.phi)
-    return np.asarray(output), np.asarray(whole.channels["a_x"] + 1j * whole.channels["a_y"])
+    output = np.where(s.usable[rows], data, 0.0) * np.exp(1j * whole.record.phi)
+    return np.asarray(output), np.asarray(whole.record.wide["a_x"] + 1j * whole.record.wide["a_y"])
