@@ -21,7 +21,7 @@ from ragg_runtime.model.record import find_start
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues, find_channels, resolve
 from ragg_runtime.reference.geometry import Rotations
-from ragg_runtime.reference.motion import RecordedSignal, Turning
+from ragg_runtime.reference.motion import RecordedSignal, Sinusoids, Turning
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion, perturb
 from ragg_runtime.reference.simulate import draw_rare, draw_usual, eotvos_noise
 from ragg_runtime.workspace import Loaded
@@ -139,7 +139,7 @@ def _collect_auxiliaries(
     channels: dict[str, Auxiliary] = {**usual, **{name: rare[name] for name in rare if name in needed}}
     if record is not None:
         time = record.time - record.time[0] + start
-        channels |= {n: RecordedSignal(time, x).value for n, x in record.channels.items() if n in needed}
+        channels |= {n: RecordedSignal(time, x) for n, x in record.channels.items() if n in needed}
     return channels
 
 
@@ -241,5 +241,5 @@ def _parse_profile(profile: str, text: str) -> Turning:
             expected=FORM,
             remedy="0.25,0.4@0.05 swings by 0.4 rad every 20 s about 0.25 Hz; 0: it does not spin",
         ) from None
-    swung = tuple((s[0], s[1], s[2] if len(s) == 3 else 0.0) for s in parts)
-    return Turning(frequency=numbers[0], swings=swung)
+    columns = np.transpose([(*s, 0.0)[:3] for s in parts])
+    return Turning(numbers[0], Sinusoids(0.0, *columns) if parts else None)

@@ -351,16 +351,11 @@ class SampledSignal:
     """A signal (N,) of known values and slopes at the instants n / :data:`SAMPLED`, where alone it is asked for."""
 
     def __init__(self, values: Array, slopes: Array) -> None:
-        self._value = CubicHermiteSpline(np.arange(len(values)) / SAMPLED, values, slopes)
-        self._rate = self._value.derivative()
+        self._spline = CubicHermiteSpline(np.arange(len(values)) / SAMPLED, values, slopes)
 
-    def value(self, time: Array, shift: float = 0.0) -> Array:
-        """Value at ``time - shift``, (N,)."""
-        return np.asarray(self._value(time - shift))
-
-    def rate(self, time: Array, shift: float = 0.0) -> Array:
-        """Derivative at ``time - shift``, (N,), 1/s."""
-        return np.asarray(self._rate(time - shift))
+    def __call__(self, time: Array, shift: float = 0.0, derivative: int = 0) -> Array:
+        """Value or derivative at ``time - shift``, (N,)."""
+        return np.asarray(self._spline(time - shift, derivative))
 
 
 def draw_motion(rng: np.random.Generator, experiment: int) -> MotionSignals:

@@ -60,12 +60,8 @@ _BLOCK = 2_000_000
 class Signal(Protocol):
     """A smooth scalar function of time."""
 
-    def value(self, time: Array, shift: float = 0.0) -> Array:
-        """Value at ``time - shift``, (N,)."""
-        ...
-
-    def rate(self, time: Array, shift: float = 0.0) -> Array:
-        """Time derivative at ``time - shift``, (N,), 1/s."""
+    def __call__(self, time: Array, shift: float = 0.0, derivative: int = 0) -> Array:
+        """Value at ``time - shift``, (N,) s, or a derivative of this order, per s, s^2 ..."""
         ...
 
 
@@ -78,28 +74,20 @@ class Sinusoids:
     frequency: Sequence[float] | Array = ()
     phase: Sequence[float] | Array = ()
 
-    def _sum(self, time: Array, shift: float, derivative: bool) -> Array:
-        A = np.asarray(self.amplitude, dtype=np.float64)
-        f = np.asarray(self.frequency, dtype=np.float64)
+    def __call__(self, time: Array, shift: float = 0.0, derivative: int = 0) -> Array:
+        """Value or derivative at ``time - shift``, (N,)."""
+        A, f, phase = (np.asarray(v, dtype=np.float64) for v in (self.amplitude, self.frequency, self.phase))
+        mean = 0.0 if derivative else self.mean
         if A.size == 0:
-            return np.zeros(time.shape)
-        phase = np.asarray(self.phase, dtype=np.float64) - 2 * np.pi * turns(f, shift)
-        if derivative:
-            A, phase = 2 * np.pi * f * A, phase + np.pi / 2
+            return np.full(time.shape, mean)
+        A = (2 * np.pi * f) ** derivative * A
+        phase = phase - 2 * np.pi * turns(f, shift) + derivative * np.pi / 2
         step = max(1, _BLOCK // A.size)
         blocks = [
             A @ np.sin(2 * np.pi * turns(f[:, None], time[start : start + step]) + phase[:, None])
             for start in range(0, time.size, step)
         ]
-        return np.concatenate(blocks) if blocks else np.zeros(0)
-
-    def value(self, time: Array, shift: float = 0.0) -> Array:
-        """Value at ``time - shift``, (N,)."""
-        return self.mean + self._sum(time, shift, derivative=False)
-
-    def rate(self, time: Array, shift: float = 0.0) -> Array:
-        """Time derivative at ``time - shift``, (N,)."""
-        return self._sum(time, shift, derivative=True)
+        return mean + (np.concatenate(blocks) if blocks else np.zeros(0))
 
 
 @dataclass(frozen=True)
@@ -125,7 +113,8 @@ class RecordedSignal:
         nonempty = np.diff(pieces.x) > 0
         return np.append(pieces.x[:-1][nonempty], pieces.x[-1]), pieces.c[:, nonempty]
 
-    def _evaluate(self, time: Array, shift: float, derivative: int) -> Array:
+    def __call__(self, time: Array, shift: float = 0.0, derivative: int = 0) -> Array:
+        """Value or derivative at ``time - shift``, (N,)."""
         knots, c = self._pieces
         reach = (self.time[-1] - self.time[0]) / (self.time.size - 1)
         if time.size and (time.min() < knots[0] - reach or time.max() > knots[-1] + reach):
@@ -143,18 +132,6 @@ class RecordedSignal:
         for n, row in zip(powers, c, strict=False):
             total = total * x + math.perm(int(n), derivative) * row[piece]
         return total
-
-    def value(self, time: Array, shift: float = 0.0) -> Array:
-        """Value at ``time - shift``, (N,)."""
-        return self._evaluate(time, shift, derivative=0)
-
-    def rate(self, time: Array, shift: float = 0.0) -> Array:
-        """Time derivative at ``time - shift``, (N,)."""
-        return self._evaluate(time, shift, derivative=1)
-
-    def acceleration(self, time: Array, shift: float = 0.0) -> Array:
-        """Second time derivative at ``time - shift``, (N,)."""
-        return self._evaluate(time, shift, derivative=2)
 
 
 @dataclass(frozen=True)
@@ -177,9 +154,9 @@ class MotionSignals:
         """The motion at ``time - shift``; omegadot is the derivative of omega."""
         t = np.atleast_1d(np.asarray(time, dtype=np.float64))
         return MotionState(
-            np.stack([s.value(t, shift) for s in self.a]),
-            np.stack([s.value(t, shift) for s in self.omega]),
-            np.stack([s.rate(t, shift) for s in self.omega]),
+            np.stack([s(t, shift) for s in self.a]),
+            np.stack([s(t, shift) for s in self.omega]),
+            np.stack([s(t, shift, 1) for s in self.omega]),
         )
 
 
@@ -199,16 +176,14 @@ def recorded_motion(time: ArrayLike, a: ArrayLike, omega: ArrayLike) -> MotionSi
 
 @dataclass(frozen=True)
 class Turning:
-    """Angle 2 pi frequency t + start + sum of amplitude sin(2 pi f t + phase) + recorded, rad.
+    """Angle 2 pi frequency t + start + swing, rad.
 
-    ``frequency``: Hz; negative: backwards; 0 with swings: to and fro. ``swings``: (amplitude rad, frequency Hz, phase
-    rad) each. ``recorded``: what a record has beyond the steady turning, rad.
+    ``frequency``: Hz; negative: backwards; 0 with a swing: to and fro. ``swing``: rad, what a disc does beyond turning steadily.
     """
 
     frequency: float
-    swings: tuple[tuple[float, float, float], ...] = ()
+    swing: Signal | None = None
     start: float = 0.0
-    recorded: RecordedSignal | None = None
 
     @classmethod
     def of_record(cls, time: Array, angle: Array) -> Turning:
@@ -217,23 +192,17 @@ class Turning:
         frequency = float((unwrapped[-1] - unwrapped[0]) / (time[-1] - time[0]) / (2 * np.pi))
         steady = 2 * np.pi * frequency * (time - time[0])
         rest = RecordedSignal(time, unwrapped - unwrapped[0] - steady)
-        start = float(angle[0] - 2 * np.pi * turns(frequency, time[0]))
-        return cls(frequency=frequency, start=start, recorded=rest)
+        return cls(frequency, rest, float(angle[0] - 2 * np.pi * turns(frequency, time[0])))
 
     def at(self, time: Array, delay: float = 0.0) -> Taylor:
         """The angle and its rates at ``time - delay``, (N,) s; whole turns of the steady part are dropped."""
         phi = disc_angle(self.frequency, time, delay)
         steady = np.full(time.shape, 2 * np.pi * self.frequency)
         angle = Taylor(phi + self.start if self.start else phi, steady, np.zeros(time.shape))
-        for amplitude, f, phase in self.swings:
-            rate = 2 * np.pi * f
-            beat = 2 * np.pi * (turns(f, time) - turns(f, delay)) + phase
-            swing = Taylor(beat, np.full(time.shape, rate), np.zeros(time.shape)).sine()
-            angle = angle + swing * amplitude
-        if self.recorded is not None:
-            x = self.recorded
-            angle = angle + Taylor(x.value(time, delay), x.rate(time, delay), x.acceleration(time, delay))
-        return angle
+        if self.swing is None:
+            return angle
+        value, rate, acceleration = (self.swing(time, delay, n) for n in range(3))
+        return angle + Taylor(value, rate, acceleration)
 
     def encoder(self, time: Array) -> Array:
         """What an encoder reads, (N,) rad, between -pi and pi."""

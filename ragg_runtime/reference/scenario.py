@@ -231,7 +231,7 @@ def draw_gradient(rng: np.random.Generator, rms: float = 0.0) -> Gradient:
     ]
 
     def tensor(time: Array) -> Array:
-        xx, xy, xz, yy, yz = (signal.value(time) for signal in drawn)
+        xx, xy, xz, yy, yz = (signal(time) for signal in drawn)
         return np.stack([xx, xy, xz, yy, yz, -(xx + yy)])
 
     return Gradient(tensor)

@@ -38,14 +38,14 @@ def draw_usual(rng: np.random.Generator) -> Mapping[str, Auxiliary]:
     swings = Sinusoids(0.0, 0.1 * np.array([0.7, 0.3]), 1 / rng.uniform(200, 900, 2), rng.uniform(0, 6.28, 2))
 
     def warming(time: Array) -> Array:
-        return REFERENCE_TEMPERATURE + 2.0 * -np.expm1(-time / 1200.0) + swings.value(time)
+        return REFERENCE_TEMPERATURE + 2.0 * -np.expm1(-time / 1200.0) + swings(time)
 
     return {
         "temperature": warming,
-        "roll": _attitude(rng).value,
-        "pitch": _attitude(rng).value,
-        "pressure": _slow(rng, REFERENCE_PRESSURE - 3000.0, 300.0).value,
-        **{f"B_{k}": _slow(rng, mean, 2e-6).value for k, mean in zip("xyz", _EARTH_FIELD, strict=True)},
+        "roll": _attitude(rng),
+        "pitch": _attitude(rng),
+        "pressure": _slow(rng, REFERENCE_PRESSURE - 3000.0, 300.0),
+        **{f"B_{k}": _slow(rng, mean, 2e-6) for k, mean in zip("xyz", _EARTH_FIELD, strict=True)},
     }
 
 
@@ -53,10 +53,10 @@ def draw_rare(rng: np.random.Generator) -> Mapping[str, Auxiliary]:
     """What only some carriers record: heading, fuel on board, levels of vibration above the recorder's bandwidth, loops' currents."""
     burning = rng.uniform(0.02, 0.06)  # kg/s
     return {
-        "yaw": _slow(rng, float(rng.uniform(-3.0, 3.0)), 0.5).value,
+        "yaw": _slow(rng, float(rng.uniform(-3.0, 3.0)), 0.5),
         "fuel_mass": lambda time: np.asarray(500.0 - burning * time),
-        "vibration_rms": _slow(rng, 0.5, 0.1).value,
-        "angular_vibration_rms": _slow(rng, 1e-4, 2e-5).value,
+        "vibration_rms": _slow(rng, 0.5, 0.1),
+        "angular_vibration_rms": _slow(rng, 1e-4, 2e-5),
         "balance_current": lambda time: np.asarray(-1e-3 * np.expm1(-time / 400.0)),  # a loop that settles
         "second_order_current": lambda time: np.asarray(-1e-3 * np.expm1(-time / 250.0)),
     }

@@ -128,11 +128,6 @@ def _signal(rng: np.random.Generator, mean: float, spread: float) -> Sinusoids:
     return Sinusoids(mean, spread * shares, frequency, phase)
 
 
-def _rate_of(s: Sinusoids) -> Sinusoids:
-    omega = 2 * np.pi * np.asarray(s.frequency)
-    return Sinusoids(0.0, omega * np.asarray(s.amplitude), s.frequency, np.asarray(s.phase) + np.pi / 2)
-
-
 def _averaged(s: Sinusoids, b: float) -> Sinusoids:
     """Over the interval sqrt(24 b)."""
     shares = np.sinc(np.asarray(s.frequency) * np.sqrt(24 * b))
@@ -154,7 +149,7 @@ SIZES = {
 }  # fmt: skip
 """Mean and spread, SI."""
 
-AUXILIARIES = {"temperature": TEMPERATURE.value} | {n: _signal(_RNG, *s).value for n, s in SIZES.items()}
+AUXILIARIES = {"temperature": TEMPERATURE} | {n: _signal(_RNG, *s) for n, s in SIZES.items()}
 
 RESPONSES = [
     *(f"C__mount_{n}_{k}" for n in ("a", "omega", "omegadot") for k in "xyz"),
@@ -178,17 +173,17 @@ def _reference(effects: Mapping[str, Mapping[str, object]], kinematics: Kinemati
     late = float(effects.get("time-offset", {}).get("delta_t", 0.0))
     channels = dict(record.channels) | {"time": record.time}
     drift = float(effects.get("clock-drift", {}).get("epsilon", 0.0))
-    channels["d_temperature"] = _rate_of(TEMPERATURE).value(record.time)
+    channels["d_temperature"] = TEMPERATURE(record.time, 0.0, 1)
     recorded = record.time - drift * record.time
     skew, filtered = effects.get("imu-skew", {}), effects.get("imu-filter", {})
-    for name, signals in (("a", _A), ("omegadot", [_rate_of(s) for s in _OMEGA])):
+    for name, signals, order in (("a", _A, 0), ("omegadot", _OMEGA, 1)):
         b = float(filtered.get("b_a" if name == "a" else "b_w", 0.0))
         for k, s in zip("xyz", signals, strict=True):
             by = late + (float(skew.get(f"delta_{k}", 0.0)) if name == "a" else 0.0)
-            channels[f"d_{name}_{k}"] = _rate_of(_averaged(s, b)).value(recorded, by)
-            channels[f"d2_{name}_{k}"] = _rate_of(_rate_of(_averaged(s, b))).value(recorded, by)
+            channels[f"d_{name}_{k}"] = _averaged(s, b)(recorded, by, order + 1)
+            channels[f"d2_{name}_{k}"] = _averaged(s, b)(recorded, by, order + 2)
     for n, name in enumerate(RESPONSES):
-        channels[name] = _signal(np.random.default_rng(n), 0.0, 0.1).value(record.time)
+        channels[name] = _signal(np.random.default_rng(n), 0.0, 0.1)(record.time)
         channels |= {f"{name}_by_{q}": np.zeros_like(record.time) for q in SHAPES}
     channels["G_out"] = record.G_out
     phi = disc_angle(INSTRUMENT.spin_frequency, record.time)

@@ -140,7 +140,7 @@ def test_the_encoder_of_a_record_is_flown(tmp_path: Path) -> None:
     assert np.max(np.abs(gap)) < 1e-11
     assert worst(i, again) < LIMIT
     stated = parse_turning(["0.3"], i.layout, first)["A"]
-    assert (stated.frequency, stated.recorded) == (0.3, None)  # what is asked for goes before
+    assert (stated.frequency, stated.swing) == (0.3, None)  # what is asked for goes before
 
 
 @pytest.mark.parametrize("text", ["", "a", "0.25,1", "0.25,1@-2", "nan", "0.25,1@2@3@4", "B:0.25"])

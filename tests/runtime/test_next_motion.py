@@ -47,7 +47,7 @@ def flown(s: Scenario, sinusoids: Sequence[Sinusoid], effects: EffectValues) -> 
     for name, signal in zip(next_motion.AXES, (*s.motion.a, *s.motion.omega), strict=True):
         of_axis = [x for x in sinusoids if x[0] == name]
         f, amplitude, phase = ([x[k] for x in of_axis] for k in (1, 2, 3))
-        parts.append(Sinusoids(float(np.mean(signal.value(t))), amplitude, f, phase))
+        parts.append(Sinusoids(float(np.mean(signal(t))), amplitude, f, phase))
     motion = MotionSignals(tuple(parts[:3]), tuple(parts[3:]))
     runs = [
         (w.simulate(effects), w.simulate()) for w in (s, replace(s, motion=motion, seed=s.seed + 100_000))

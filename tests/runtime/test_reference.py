@@ -70,7 +70,7 @@ def test_motion_has_the_stated_size() -> None:
 @pytest.mark.parametrize("shape", SHAPES)
 def test_spectrum_ends_at_the_cutoff_and_has_its_shape(shape: str) -> None:
     signal = turbulence(np.random.default_rng(2), 3600, 1.0, shape=shape)
-    f, density = welch(signal.value(np.arange(0, 3600, 1 / RATE)), RATE, nperseg=4096)
+    f, density = welch(signal(np.arange(0, 3600, 1 / RATE)), RATE, nperseg=4096)
     assert np.sum(density[f > 1.8]) < 1e-3 * np.sum(density)
     assert np.sum(density[f > 3]) < 1e-6 * np.sum(density)
     band = (f > 0.1) & (f < 1.0)
@@ -280,7 +280,7 @@ def test_saturation_and_quantisation() -> None:
         (lambda: run({"thermal-bias": {"dK0_dT": 1e-6}}), "temperature"),
         (lambda: run({"self-gradient": {"G_xx_pitch": 1e-6}}), "pitch"),
         (lambda: PointMass(1.0, [0, 0, 0]).difference(np.zeros(1), np.ones((3, 1))), "sits on"),
-        (lambda: RECORDED.value(np.array([49.9, 60.0])), "does not cover"),
+        (lambda: RECORDED(np.array([49.9, 60.0])), "does not cover"),
         (lambda: RecordedSignal(np.arange(3.0), np.zeros(3)), ""),
         (lambda: RecordedSignal(np.array([0.0, 1, 2, 3, 5, 4]), np.zeros(6)), ""),
         (lambda: RecordedSignal(np.arange(6.0), np.array([0, 1, 2, 3, 4, np.nan])), ""),
@@ -375,7 +375,7 @@ EDGES = {"l_x": 0.8, "l_y": 0.3, "l_z": 0.5}
 )
 def test_a_body_that_moves_is_weighed_and_placed(body: str, M: float, known: bool) -> None:
     s = scenario(7, duration=200.0, rate=SLOW)
-    moving = {f"mass_{k}": Sinusoids(0.0, [a], [1 / T], [0.3]).value for k, a, T in MOVED}
+    moving = {f"mass_{k}": Sinusoids(0.0, [a], [1 / T], [0.3]) for k, a, T in MOVED}
     s = replace(s, auxiliaries={**s.auxiliaries, **moving})
     true = {"x": 1.0, "y": 0.7, "z": -0.4} | (EDGES if body == "near-cuboid" else {})
     hidden: EffectValues = {body: true | {"M": M}}

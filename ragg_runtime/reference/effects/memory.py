@@ -36,7 +36,7 @@ def recoil(values: Values, x: Signal, time: Array, delay: float = 0.0) -> tuple[
     """
     (d, b), share = oscillator(values), float(values["share"])
     fine = time[0] + np.arange(int(np.ceil((time[-1] - time[0]) * FINE)) + 2) / FINE
-    y = _integrate(x.rate(fine, delay), [share * b, 0.0], [(1 - share) * b, d, 1.0])
+    y = _integrate(x(fine, delay, 1), [share * b, 0.0], [(1 - share) * b, d, 1.0])
     slope = np.gradient(y, 1 / FINE)
     return make_interp_spline(fine, y, k=3)(time), make_interp_spline(fine, slope, k=3)(time)
 

@@ -37,7 +37,7 @@ def _carry_to_sensor(motion: MotionSignals, time: Array, delay: float, effects: 
     true = motion.at(time, delay)
     a, omega, omegadot = true.a, true.omega, true.omegadot
     if skewed := effects.get("imu-skew"):
-        late = [motion.a[n].value(time, delay + float(skewed[f"delta_{k}"])) for n, k in enumerate("xy")]
+        late = [motion.a[n](time, delay + float(skewed[f"delta_{k}"])) for n, k in enumerate("xy")]
         a = np.stack([*late, a[2]])
     if lever := effects.get("imu-lever-arm"):
         arm = np.array([lever["l_x"], lever["l_y"], lever["l_z"]])[:, None]
@@ -76,7 +76,7 @@ def _sense_rotation(
         omega, omegadot = axes @ omega, axes @ omegadot
     if force := effects.get("gyro-g-sensitivity"):
         D = np.array([[force[f"d_{i}{k}"] for k in "xyz"] for i in "xyz"])
-        jerk = np.stack([s.rate(time, delay) for s in motion.a])
+        jerk = np.stack([s(time, delay, 1) for s in motion.a])
         omega, omegadot = omega + D @ a, omegadot + D @ jerk
     if rates := effects.get("gyro-bias"):
         omega = omega + _vector(rates, "b")
