@@ -164,7 +164,7 @@ class Chain:
         if "thermal-lag" in self.effects:
             temperature = self.auxiliaries["temperature"]
             change = temperature(time + _WARMING) - temperature(time - _WARMING)
-            values[transducer.RATE_OF_TEMPERATURE] = change / (2 * _WARMING)
+            values["d_temperature"] = change / (2 * _WARMING)
         return values
 
     def _average(self, j: int, instant: Instant, shaken: tuple[tuple[Array, float], ...]) -> Array:
@@ -196,7 +196,7 @@ class Chain:
         bracket = (
             measured[0]
             + transducer.bias(j, k["K0"], time, auxiliaries, self.effects)
-            + transducer.curvature(j, k["K2"], time, auxiliaries, self.effects) * i**2
+            + sum(transducer.follow("K2", j, time, auxiliaries, self.effects), k["K2"]) * i**2
             + k["K5"] * o**2
             + k["K7"] * p**2
             + k["K4"] * i * p

@@ -24,20 +24,25 @@ EffectValues = Mapping[str, Mapping[str, ArrayLike]]
 class InjectedParameter:
     """One number of an effect (``per_accelerometer``: one each), absent at ``neutral``.
 
-    ``unit``: SI; m/s^2 is the unit of specific force, so 1/(m/s^2)^2 is the paper's g/g^3.
+    ``unit``: SI; m/s^2 is the unit of specific force, so 1/(m/s^2)^2 is the paper's g/g^3. ``changes``: what of an accelerometer
+    changes by it (K1: as a share) in proportion to a channel, to ``time``, or from an instant (``step``) on: ``by``.
     """
 
     unit: str
     per_accelerometer: bool = False
     neutral: float = 0.0
+    changes: str = ""
+    by: str = ""
 
 
-def _each(unit: str, *names: str) -> dict[str, InjectedParameter]:
-    return {name: InjectedParameter(unit, per_accelerometer=True) for name in names}
+def _each(unit: str, *names: str, changes: str = "", by: str = "") -> dict[str, InjectedParameter]:
+    return {name: InjectedParameter(unit, True, changes=changes, by=by) for name in names}
 
 
-def _shared(unit: str, *names: str, neutral: float = 0.0) -> dict[str, InjectedParameter]:
-    return {name: InjectedParameter(unit, neutral=neutral) for name in names}
+def _shared(
+    unit: str, *names: str, neutral: float = 0.0, changes: str = "", by: str = ""
+) -> dict[str, InjectedParameter]:
+    return {name: InjectedParameter(unit, False, neutral, changes, by) for name in names}
 
 
 _TRACELESS = ("xx", "xy", "xz", "yy", "yz")
@@ -56,13 +61,13 @@ CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     "second-order-misalignment": _shared("1", "kappa", neutral=1.0),
     "lag": _each("s", "tau"),
     "pendulum-angular": _each("(m/s^2)/(rad/s^2)", "K_pa"),
-    "thermal-bias": _each("(m/s^2)/K", "dK0_dT"),
-    "thermal-scale": _each("1/K", "dK1_dT"),
+    "thermal-bias": _each("(m/s^2)/K", "dK0_dT", changes="K0", by="temperature"),
+    "thermal-scale": _each("1/K", "dK1_dT", changes="K1", by="temperature"),
     "magnetic-bias": _each("(m/s^2)/T", "dK0_dB"),
-    "pressure-bias": _each("(m/s^2)/Pa", "dK0_dp"),
-    "bias-drift": _each("(m/s^2)/s", "dK0_dt"),
-    "gain-drift": _each("1/s", "dK1_dt"),
-    "gain-step": _each("1", "dK1") | _shared("s", "t_step"),
+    "pressure-bias": _each("(m/s^2)/Pa", "dK0_dp", changes="K0", by="pressure"),
+    "bias-drift": _each("(m/s^2)/s", "dK0_dt", changes="K0", by="time"),
+    "gain-drift": _each("1/s", "dK1_dt", changes="K1", by="time"),
+    "gain-step": _each("1", "dK1", changes="K1", by="step") | _shared("s", "t_step"),
     "arm-length": _shared("m", "delta_R"),
     "arm-stretch": _each("m/(m/s^2)", "c_r"),
     "arm-sag": _each("m/(m/s^2)", "c_z"),
@@ -81,10 +86,11 @@ CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     "imu-acceleration-bias": _shared("m/s^2", "b_x", "b_y", "b_z"),
     "imu-acceleration-misalignment": _shared("rad", *(f"m_{p}" for p in _PAIRS)),
     "clock-drift": _shared("1", "epsilon"),
-    "bias-step": _each("m/s^2", "dK0") | _shared("s", "t_step"),
-    "output-gain-step": _shared("1", "g") | _shared("s", "t_step"),
+    "bias-step": _each("m/s^2", "dK0", changes="K0", by="step") | _shared("s", "t_step"),
+    "output-gain-step": _shared("1", "g", changes="K1", by="step") | _shared("s", "t_step"),
     "output-filter": _shared("s^2", "b"),
-    "thermal-lag": _each("(m/s^2)/(K/s)", "dK0_dTdot") | _each("1/(K/s)", "dK1_dTdot"),
+    "thermal-lag": _each("(m/s^2)/(K/s)", "dK0_dTdot", changes="K0", by="d_temperature")
+    | _each("1/(K/s)", "dK1_dTdot", changes="K1", by="d_temperature"),
     "anisoinertia": _each("(m/s^2)/(rad/s)^2", "K_ip"),
     "time-offset": _shared("s", "delta_t"),
     "imu-lever-arm": _shared("m", "l_x", "l_y", "l_z"),
@@ -123,12 +129,13 @@ CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     | _each("1", "s_0")
     | _shared("s", "tau", neutral=40.0),
     "output-curve": _shared("1/V", "c_2") | _shared("1/V^2", "c_3"),
-    "thermal-misalignment": _each("rad/K", "dvartheta_y_dT"),
-    "thermal-second-order": _each("1/(m/s^2)/K", "dK2_dT"),
-    "misalignment-drift": _each("rad/s", "dvartheta_y_dt"),
-    "misalignment-step": _each("rad", "dvartheta_y") | _shared("s", "t_step"),
-    "second-order-drift": _each("1/(m/s^2)/s", "dK2_dt"),
-    "second-order-step": _each("1/(m/s^2)", "dK2") | _shared("s", "t_step"),
+    "thermal-misalignment": _each("rad/K", "dvartheta_y_dT", changes="vartheta_y", by="temperature"),
+    "thermal-second-order": _each("1/(m/s^2)/K", "dK2_dT", changes="K2", by="temperature"),
+    "misalignment-drift": _each("rad/s", "dvartheta_y_dt", changes="vartheta_y", by="time"),
+    "misalignment-step": _each("rad", "dvartheta_y", changes="vartheta_y", by="step")
+    | _shared("s", "t_step"),
+    "second-order-drift": _each("1/(m/s^2)/s", "dK2_dt", changes="K2", by="time"),
+    "second-order-step": _each("1/(m/s^2)", "dK2", changes="K2", by="step") | _shared("s", "t_step"),
     "imu-filter": _shared("s^2", "b_a", "b_w"),
     "imu-skew": _shared("s", "delta_x", "delta_y"),
     "gyro-misalignment": _shared("rad", *(f"m_{p}" for p in _PAIRS)),
@@ -138,7 +145,8 @@ CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     "magnetic-axial-bias": _each("(m/s^2)/T", "dK0_dBz"),
     "carrier-gradient": _shared("1/s^2", *(f"G_{c}" for c in _TRACELESS))
     | _shared("1/s^2/kg", *(f"F_{c}" for c in _TRACELESS)),
-    "balancing-loop": _each("1/A", "dK1_di") | _each("1/(m/s^2)/A", "dK2_di"),
+    "balancing-loop": _each("1/A", "dK1_di", changes="K1", by="balance_current")
+    | _each("1/(m/s^2)/A", "dK2_di", changes="K2", by="second_order_current"),
     "saturation": _shared("V", "V_max", neutral=np.inf),
     "imu-saturation": _shared("m/s^2", "a_max", neutral=np.inf)
     | _shared("rad/s", "omega_max", neutral=np.inf),
@@ -172,18 +180,17 @@ def find_channels(effect: str, parameters: Values) -> tuple[str, ...]:
     if effect == "carrier-gradient":
         fuel = any(value != 0 for name, value in parameters.items() if name.startswith("F_"))
         return ("roll", "pitch", "yaw", "fuel_mass") if fuel else ("roll", "pitch", "yaw")
-    if effect == "balancing-loop":
-        currents = {"dK1_di": "balance_current", "dK2_di": "second_order_current"}
-        return tuple(channel for name, channel in currents.items() if np.any(parameters[name]))
-    return _CHANNELS.get(effect, ())
+    followed = [q.by.removeprefix("d_") for n, q in CATALOGUE[effect].items() if np.any(parameters[n])]
+    return (
+        *_CHANNELS.get(effect, ()),
+        *(channel for channel in followed if channel not in ("", "time", "step")),
+    )
 
 
 _CHANNELS: Mapping[str, tuple[str, ...]] = {
-    **dict.fromkeys(("thermal-bias", "thermal-scale", "thermal-lag", "thermal-hysteresis"), ("temperature",)),
-    **dict.fromkeys(("thermal-misalignment", "thermal-second-order", "imu-thermal"), ("temperature",)),
+    **dict.fromkeys(("thermal-hysteresis", "imu-thermal"), ("temperature",)),
     "magnetic-scale": ("B_x", "B_y"),
     **dict.fromkeys(("magnetic-bias", "magnetic-axial-bias"), ("B_x", "B_y", "B_z")),
-    "pressure-bias": ("pressure",),
     "vibration-level": ("vibration_rms",),
     "angular-jitter": ("angular_vibration_rms",),
     "fuel-gradient": ("fuel_mass",),

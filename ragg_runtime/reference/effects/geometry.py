@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects import Injected, memory
-from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE
+from ragg_runtime.reference.effects.transducer import follow
 from ragg_runtime.reference.geometry import Taylor, by_vector, stack
 
 Array = NDArray[np.float64]
@@ -106,15 +106,8 @@ def misalignment(
     effects: Injected,
 ) -> tuple[Angle, Angle, Angle]:
     """Misalignment angles of accelerometer j under the specific force f_x, f_y, f_z, rad."""
-    about_x: Angle = angles[0]
-    about_y: Angle = angles[1]
+    about_y: Angle = sum(follow("vartheta_y", j, time, auxiliaries, effects), angles[1])
     about_z: Angle = angles[2]
-    if warped := effects.get("thermal-misalignment"):
-        about_y = about_y + warped["dvartheta_y_dT"][j] * (auxiliaries["temperature"] - REFERENCE_TEMPERATURE)
-    if creep := effects.get("misalignment-drift"):
-        about_y = about_y + creep["dvartheta_y_dt"][j] * time
-    if slip := effects.get("misalignment-step"):
-        about_y = about_y + slip["dvartheta_y"][j] * (time >= slip["t_step"])
     if play := effects.get("mount-hysteresis"):
         x, z = (auxiliaries[memory.friction("mount-hysteresis", j, n)] for n in (0, 2))
         about_y = about_y + play["e_yx"][j] * x + play["e_yz"][j] * z
@@ -129,4 +122,4 @@ def misalignment(
         c = {name: value[j] for name, value in compliance.items()}
         about_y = about_y + c["c_yx"] * f[0] + c["c_yy"] * f[1] + c["c_yz"] * f[2]
         about_z = about_z + c["c_zx"] * f[0] + c["c_zy"] * f[1] + c["c_zz"] * f[2]
-    return about_x, about_y, about_z
+    return angles[0], about_y, about_z

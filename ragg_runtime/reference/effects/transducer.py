@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.reference.effects import Injected, memory
+from ragg_runtime.reference.effects import CATALOGUE, Injected, memory
 from ragg_runtime.reference.geometry import Taylor, carry
 from ragg_runtime.reference.motion import MotionState
 
@@ -19,7 +19,7 @@ Triad = tuple[Taylor, Taylor, Taylor]
 REFERENCE_TEMPERATURE = 293.15  # temperature (K) at which bias and scale factor have their test-sheet values
 REFERENCE_PRESSURE = 101325.0  # pressure (Pa) at which the bias has its test-sheet value
 
-RATE_OF_TEMPERATURE = "d_temperature"
+_REFERENCES = {"temperature": REFERENCE_TEMPERATURE, "pressure": REFERENCE_PRESSURE}
 
 _CUBIC_POWERS = {
     f"K_{name}": tuple(name.count(axis) for axis in "iop")
@@ -27,21 +27,28 @@ _CUBIC_POWERS = {
 }
 
 
+def follow(
+    quantity: str, j: int, time: Array, auxiliaries: Mapping[str, Array], effects: Injected
+) -> list[Array]:
+    """By how much each effect that the catalogue has of it changes a parameter of accelerometer j at the time, (N,) each."""
+    changes = []
+    for effect, values in effects.items():
+        for name, q in CATALOGUE[effect].items():
+            if q.changes != quantity or not np.any(values[name]):
+                continue
+            if q.by == "step":
+                x = (time >= values["t_step"]).astype(np.float64)
+            else:
+                x = time if q.by == "time" else auxiliaries[q.by] - _REFERENCES.get(q.by, 0.0)
+            changes.append(np.asarray((values[name][j] if q.per_accelerometer else values[name]) * x))
+    return changes
+
+
 def bias(
     j: int, K0: float, time: Array, auxiliaries: Mapping[str, Array], effects: Injected
 ) -> Array | float:
     """Null bias of accelerometer j, m/s^2."""
-    value: Array | float = K0
-    if thermal := effects.get("thermal-bias"):
-        value = value + thermal["dK0_dT"][j] * (auxiliaries["temperature"] - REFERENCE_TEMPERATURE)
-    if pressure := effects.get("pressure-bias"):
-        value = value + pressure["dK0_dp"][j] * (auxiliaries["pressure"] - REFERENCE_PRESSURE)
-    if drift := effects.get("bias-drift"):
-        value = value + drift["dK0_dt"][j] * time
-    if step := effects.get("bias-step"):
-        value = value + step["dK0"][j] * (time >= step["t_step"])
-    if warming := effects.get("thermal-lag"):
-        value = value + warming["dK0_dTdot"][j] * auxiliaries[RATE_OF_TEMPERATURE]
+    value = sum(follow("K0", j, time, auxiliaries, effects), K0)
     if slipping := effects.get("bias-hysteresis"):
         for n, axis in enumerate("iop"):
             value = value + slipping[f"h_{axis}"][j] * auxiliaries[memory.friction("bias-hysteresis", j, n)]
@@ -60,38 +67,12 @@ def bias(
 def gain(j: int, time: Array, auxiliaries: Mapping[str, Array], effects: Injected) -> Array | float:
     """Factor on the scale factor of accelerometer j."""
     factor: Array | float = 1.0
-    if thermal := effects.get("thermal-scale"):
-        factor = factor * (1 + thermal["dK1_dT"][j] * (auxiliaries["temperature"] - REFERENCE_TEMPERATURE))
-    if drift := effects.get("gain-drift"):
-        factor = factor * (1 + drift["dK1_dt"][j] * time)
-    if step := effects.get("gain-step"):
-        factor = factor * (1 + step["dK1"][j] * (time >= step["t_step"]))
-    if common := effects.get("output-gain-step"):
-        factor = factor * (1 + common["g"] * (time >= common["t_step"]))
-    if (balanced := effects.get("balancing-loop")) and np.any(balanced["dK1_di"]):
-        factor = factor * (1 + balanced["dK1_di"][j] * auxiliaries["balance_current"])
-    if warming := effects.get("thermal-lag"):
-        factor = factor * (1 + warming["dK1_dTdot"][j] * auxiliaries[RATE_OF_TEMPERATURE])
+    for change in follow("K1", j, time, auxiliaries, effects):
+        factor = factor * (1 + change)
     if heated := effects.get("inner-temperature"):
         former = heated["s_0"][j] * auxiliaries[memory.former("inner-temperature")]
         factor = factor * (1 + heated["s"][j] * auxiliaries[memory.heat(j)] + former)
     return factor
-
-
-def curvature(
-    j: int, K2: float, time: Array, auxiliaries: Mapping[str, Array], effects: Injected
-) -> Array | float:
-    """K2 of accelerometer j at the time, s^2/m."""
-    value: Array | float = K2
-    if warm := effects.get("thermal-second-order"):
-        value = value + warm["dK2_dT"][j] * (auxiliaries["temperature"] - REFERENCE_TEMPERATURE)
-    if aged := effects.get("second-order-drift"):
-        value = value + aged["dK2_dt"][j] * time
-    if step := effects.get("second-order-step"):
-        value = value + step["dK2"][j] * (time >= step["t_step"])
-    if (balanced := effects.get("balancing-loop")) and np.any(balanced["dK2_di"]):
-        value = value + balanced["dK2_di"][j] * auxiliaries["second_order_current"]
-    return value
 
 
 def case_rate(triad: Triad, motion: MotionState) -> Triple:
