@@ -313,28 +313,24 @@ def _pick_lines(lines: list[DataTable], names: Sequence[str] | None, place: Path
 
 def _read_plain(table: DataTable) -> DataTable:
     """A table whose columns have the names of the contract; without a column called time the index is used, if it is one."""
-    notes = list(table.notes)
-    by_name = {c.name: c for c in reversed(table.columns)}
+    notes, by_name = list(table.notes), {c.name: c for c in reversed(table.columns)}
     time, index = by_name.get("time"), by_name.get(table.index or "")
     if time is None and index is not None:
         if not index.is_number or units(9.8).fits(index.unit or "1", "s"):
             time = index
         elif index.name == INDEX:
             notes.append("skipped, the index: numbers without a unit; if it is the time, name it time [s]")
-    columns: dict[str, DataColumn] = {}
-    for c in table.columns:
-        if c is time or c is index:
-            continue
-        if c.name in columns or (c.name == "time" and time is not None):
+    chosen: dict[str, tuple[DataColumn, Entry]] = {}
+    for c in (c for c in table.columns if c is not time and c is not index):
+        if c is not by_name[c.name]:
             if c.name in SI_UNITS:
                 what = f"the column {c.name!r} appears twice"
                 raise UserError(what, where=table.place, remedy="rename one")
             notes.append(f"{c.name}: a second column of this name is left out")
         elif c.is_number or c.name in SI_UNITS:
-            columns[c.name] = c
+            chosen[c.name] = c, Entry(c.name, c.unit)
         else:
             notes.append(f"{c.name} holds {'text' if c.is_text else 'dates'}; it is left out")
-    chosen = {n: (c, Entry(n, c.unit)) for n, c in columns.items()}
     named = replace(table, notes=tuple(notes))
     return _read_columns(named, [] if time is None else [time], TimeEntry(()), chosen)
 

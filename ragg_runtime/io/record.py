@@ -35,15 +35,10 @@ RATES = frozenset(
 
 AUXILIARY: Mapping[str, str] = MappingProxyType(
     {"temperature": "K", "roll": "rad", "pitch": "rad", "yaw": "rad", "pressure": "Pa"}
-    | dict.fromkeys(("B_x", "B_y", "B_z"), "T")
-    | {
-        "fuel_mass": "kg",
-        "vibration_rms": "m/s^2",
-        "angular_vibration_rms": "rad/s",
-        "balance_current": "A",
-        "second_order_current": "A",
-    }
-    | {f"mass_{k}": "m" for k in "xyz"}
+    | {"B_x": "T", "B_y": "T", "B_z": "T", "fuel_mass": "kg"}
+    | {"vibration_rms": "m/s^2", "angular_vibration_rms": "rad/s"}
+    | {"balance_current": "A", "second_order_current": "A"}
+    | {"mass_x": "m", "mass_y": "m", "mass_z": "m"}
 )
 """Auxiliary channels of fixed meaning and their SI units; any other name is an auxiliary channel as well."""
 

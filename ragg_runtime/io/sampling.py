@@ -216,9 +216,7 @@ def _unround(
     unit = _find_unit(time)
     if unit is None:
         return None
-    step, first = (float(c) for c in np.polyfit(index, time, 1))
-    if (plain := _round_rate(step, unit / 2 / float(index[-1]))) != step:
-        step, first = plain, float(np.mean(time - plain * index))
+    first, step = _fit_clock(index, time, unit / 2 / float(index[-1]))
     exact = (x for x in (float(np.rint(first / step) * step), float(time[0])) if abs(x - first) <= unit)
     first = next(exact, first)
     slack = 1e-6 * unit + 4 * float(np.spacing(np.max(np.abs(time))))
@@ -335,9 +333,13 @@ def fit_even_clock(time: Array, present: NDArray[np.bool_]) -> tuple[float, floa
 def fit_clock_put_right(time: Array, steps: Sequence[ClockStep]) -> tuple[float, float]:
     """First instant and interval, s, of even samples whose clock drifts and is put right in steps: just after them it is right."""
     rows = np.array([c.row for c in steps])
-    close = 0.1 * min(abs(c.size) for c in steps) / float(np.ptp(rows))
-    step = _round_rate(float(np.polyfit(rows, time[rows], 1)[0]), close)
-    return float(np.mean(time[rows] - step * rows)), step
+    return _fit_clock(rows, time[rows], 0.1 * min(abs(c.size) for c in steps) / float(np.ptp(rows)))
+
+
+def _fit_clock(rows: NDArray[np.int64], time: Array, error: float) -> tuple[float, float]:
+    """First instant and interval, s, of a clock that shows some instants, s, at rows; of the rate the roundest within ``error``, s."""
+    step = _round_rate(float(np.polyfit(rows, time, 1)[0]), error)
+    return float(np.mean(time - step * rows)), step
 
 
 # --- in words ------------------------------------------------------------------------------------------
