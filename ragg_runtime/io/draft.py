@@ -29,7 +29,7 @@ from ragg_runtime.io.files import read_tables
 from ragg_runtime.io.instants import are_packed, find_order, find_parts
 from ragg_runtime.io.mapping import UNKNOWN
 from ragg_runtime.io.record import ANGULAR_RATE, DEMODULATED, SI_UNITS, SPECIFIC_FORCE
-from ragg_runtime.io.tables import DataColumn, DataTable, is_unit, parse_quantities
+from ragg_runtime.io.tables import DataColumn, DataTable, is_unit, read_numbers
 
 OUTPUTS = ("G_out", "V_", "inline")  # how channels begin of which one must be there
 _LOOKED_AT = 20_000  # rows of a sample
@@ -145,11 +145,11 @@ def _read_numbers(table: DataTable) -> tuple[DataTable, dict[str, list[str]]]:
     columns, odd = [], {}
     for c in table.columns:
         if c.is_text:
-            numbers, unit, spoiled = parse_quantities(c.values, table.decimal)
+            read, spoiled = read_numbers(c, table.decimal)
             cells = sorted({*c.values[spoiled]})
-            if len(cells) <= _FEW and np.mean(np.isfinite(numbers)) > 0.5:
+            if len(cells) <= _FEW and np.mean(np.isfinite(read.values)) > 0.5:
                 odd[c.name] = [_write("null", cells)] * bool(cells)
-                c = replace(c, unit=unit or c.unit, values=numbers)
+                c = read
         columns.append(c)
     return replace(table, columns=tuple(columns)), odd
 

@@ -49,7 +49,7 @@ from ragg_runtime.io.tables import (
     DataTable,
     find_codes,
     find_decimal,
-    parse_quantities,
+    read_numbers,
     split_quantity,
     write_cell,
 )
@@ -378,7 +378,7 @@ def _read_columns(
         columns.append(replace(time, values=time.values / t.rate))
         chosen = {n: (c, e) for n, (c, e) in chosen.items() if c is not fraction}
     for name, (c, e) in chosen.items():
-        read = replace(_read_numbers(c, table, e.null), name=name, unit=e.unit)
+        read = replace(_require_numbers(c, table, e.null), name=name, unit=e.unit)
         read = _leave_out_codes(read, e.null, notes)
         if (e.factor, e.offset) != (1.0, 0.0):
             read = replace(read, values=read.values * e.factor + e.offset)
@@ -394,9 +394,9 @@ def _read_time(columns: Sequence[DataColumn], table: DataTable, t: TimeEntry) ->
     """Time as the numbers that it is, or as seconds of the instants that it is; and the table with what they count from."""
     first = columns[0]
     where = at(table.place, f"column {first.name!r}")
-    few = first.values[:_LOOKED_AT]
-    mostly = not first.is_text or float(np.mean(np.isfinite(parse_quantities(few, table.decimal)[0]))) > 0.5
-    numeric = mostly and not are_packed(few)
+    few = replace(first, values=first.values[:_LOOKED_AT])
+    mostly = not first.is_text or np.mean(np.isfinite(read_numbers(few, table.decimal)[0].values)) > 0.5
+    numeric = mostly and not are_packed(few.values)
     if t.format != "seconds" and (t.format is not None or not numeric):
         seconds, written, notes = read_stamps([c.values for c in columns], t.format, where, table.row)
         unit, _, epoch = written.partition(" since ")
@@ -404,7 +404,7 @@ def _read_time(columns: Sequence[DataColumn], table: DataTable, t: TimeEntry) ->
     else:
         remedy = None if numeric else f"specify the format: [time] format = {', '.join(map(repr, WAYS))}"
         unit, _, epoch = first.unit.partition(" since ")
-        read = _read_numbers(replace(first, unit=unit), table, t.null, remedy)
+        read = _require_numbers(replace(first, unit=unit), table, t.null, remedy)
         time = replace(read, name="time", unit=t.unit or unit)
     origin = read_epoch(epoch)
     if origin is None and epoch != MIDNIGHT:
@@ -511,30 +511,27 @@ def read_quantities(table: DataTable) -> DataTable:
     for c in table.columns:
         first = next((t for t in c.values if t not in MISSING), "") if c.is_text else ""
         if split_quantity(first)[0] and "line" not in c.name.casefold() and not are_packed(c.values):
-            numbers, unit, spoiled = parse_quantities(c.values, decimal)
-            c = c if spoiled.any() else replace(c, unit=unit or c.unit, values=numbers)
+            read, spoiled = read_numbers(c, decimal)
+            c = c if spoiled.any() else read
         columns.append(c)
     return replace(table, columns=tuple(columns), decimal=decimal)
 
 
-def _read_numbers(c: DataColumn, table: DataTable, null: Null, remedy: str | None = None) -> DataColumn:
+def _require_numbers(c: DataColumn, table: DataTable, null: Null, remedy: str | None = None) -> DataColumn:
     """A column of text as numbers; UserError at the first cell that is none."""
     if c.is_number:
         return c
-    texts = ["" if t in null else str(t) for t in c.values]
-    numbers, unit, spoiled = parse_quantities(texts, table.decimal)
+    read, spoiled = read_numbers(c, table.decimal, null)
     if c.is_instant or spoiled.any():
-        row = int(np.argmax(spoiled))
+        row, some = int(np.argmax(spoiled)), np.isfinite(read.values).any() and not c.is_instant
         raise UserError(
-            "not a number"
-            if np.isfinite(numbers).any() and not c.is_instant
-            else "the column does not hold numbers",
+            "not a number" if some else "the column does not hold numbers",
             where=at(table.place, table.row(row), f"column {c.name!r}"),
-            found="dates" if c.is_instant else repr(texts[row])[:60],
+            found="dates" if c.is_instant else repr(c.values[row])[:60],
             expected="a number with a decimal point, or nothing where it is missing",
             remedy=remedy or "codes of missing values can be named in a mapping: null = [...]",
         )
-    return replace(c, unit=unit or c.unit, values=numbers)
+    return read
 
 
 def _leave_out_codes(c: DataColumn, null: Null, notes: list[str]) -> DataColumn:

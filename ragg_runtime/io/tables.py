@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Container, Iterable, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -223,11 +223,11 @@ def find_decimal(columns: Iterable[Any]) -> str:
     return marks[0] if len(marks) == 1 else ""
 
 
-def parse_quantities(texts: Iterable[str], decimal: str = "") -> tuple[Array, str, Mask]:
-    """Numbers (n,) of n cells, perhaps with units (``0.12 m/s2``), NaN where there is none; the unit, that of the first; and the cells
-    (n,) that are neither such numbers nor marks of missing ones. ``decimal``: their mark; ``""``: they tell it themselves.
+def read_numbers(c: DataColumn, decimal: str = "", null: Container[object] = ()) -> tuple[DataColumn, Mask]:
+    """A column of n cells as numbers, NaN where there is none, in the unit of the first (``0.12 m/s2``) or its own; and the cells (n,) that
+    are neither such numbers nor marks of missing ones, as ``null`` lists more. ``decimal``: their mark; ``""``: they tell it themselves.
     """
-    texts = [*texts]
+    texts = ["" if t in null else str(t) for t in c.values]
     decimal = decimal or find_decimal([texts])
     cells = [split_quantity(t) for t in texts]
     symbols, registry = [*dict.fromkeys(u for _, u in cells if u)], units(9.8)
@@ -238,7 +238,7 @@ def parse_quantities(texts: Iterable[str], decimal: str = "") -> tuple[Array, st
         here, si = np.array([u == unit for _, u in cells]), registry.base_unit(symbols[0])
         numbers[here] = registry.from_si(registry.to_si(numbers[here], unit, si), si, symbols[0])
     spoiled = np.isnan(numbers) & np.array([t not in MISSING for t in texts], dtype=np.bool_)
-    return numbers, symbols[0] if symbols else "", spoiled
+    return replace(c, unit=symbols[0] if symbols else c.unit, values=numbers), spoiled
 
 
 def _parse(number: str, decimal: str) -> float:
