@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -30,6 +30,8 @@ Array = NDArray[np.float64]
 Triple = tuple[Array, Array, Array]
 Triad = tuple[Taylor, Taylor, Taylor]
 Auxiliary = Callable[[Array], Array]
+Index = NDArray[np.intp]
+Sense = Callable[[Index, float], Array]  # accelerometers (m,), how much earlier, s -> their voltages (m, N)
 
 _ARM_ITERATIONS = 3  # the arm's stretch changes the force that stretches it by a part in a million
 _STEP = 0.01  # between the instants at which an arm's length is looked at to learn how fast it changes, s
@@ -83,36 +85,16 @@ class Chain:
 
     def voltages(self, time: Array, angle_error: Array) -> Array:
         """V_1 ... V_n without noise, (n, N) V, at (N,) s; ``angle_error`` (N,) rad: random part of phi."""
-        present = self._sense(time, 0.0, angle_error)
-        change = np.zeros_like(present)
-        b = float(self.effects["output-filter"]["b"]) if "output-filter" in self.effects else 0.0
-        for delay, weight in transducer.averaging(b):
-            change += weight * (self._sense(time, delay, angle_error) - present)
-        widths = transducer.widths(self.effects, self.size)
-        for width in np.unique(widths[widths > 0]):
-            group = np.flatnonzero(widths == width)
-            for delay, weight in transducer.loop_quadrature(float(width)):
-                change[group] += weight * (self._sense(time, delay, angle_error) - present)[group]
-        return np.asarray(present + change)
-
-    def _sense(self, time: Array, earlier: float, angle_error: Array) -> Array:
-        """The voltages (n, N) V so much earlier (s), loops and their lags included."""
-        tau = transducer.lags(self.effects, self.size)
         shaken = force.vibration(self.effects, "vibration-rectification", "P")
-        V = np.empty((self.size, time.size))
-        instant = self._instant(time, earlier, angle_error)
-        for j in range(self.size):
-            V[j] = self._average(j, instant, shaken)
-        for lag in np.unique(tau[tau > 0]):
-            group = np.flatnonzero(tau == lag)
-            # Adding the difference to the present, rather than the past itself, keeps a tiny lag accurate.
-            present, change = V[group], np.zeros((group.size, time.size))
-            for delay, weight in transducer.lag_quadrature(float(lag)):
-                past = self._instant(time, earlier + delay, angle_error)
-                for row, member in enumerate(group):
-                    change[row] += weight * (self._average(int(member), past, shaken) - present[row])
-            V[group] = present + change
-        return V
+
+        def sense(members: Index, earlier: float) -> Array:
+            instant = self._instant(time, earlier, angle_error)
+            return np.stack([self._average(j, instant, shaken) for j in members.tolist()])
+
+        b = float(self.effects["output-filter"]["b"]) if "output-filter" in self.effects else 0.0
+        lagging = _smear(sense, transducer.lags(self.effects, self.size), transducer.lag_quadrature)
+        looped = _smear(lagging, transducer.widths(self.effects, self.size), transducer.loop_quadrature)
+        return _smear(looped, np.full(self.size, b), transducer.averaging)(np.arange(self.size), 0.0)
 
     def forces(self, time: Array) -> Array:
         """f_x, f_y, f_z of the accelerometers, (n, 3, N) m/s^2, at (N,) s."""
@@ -280,6 +262,24 @@ class Chain:
         f = f + force.jittered(position, instant.auxiliaries, self.effects)
         x, y, z = (np.sum(f * tau.value, axis=0) for tau in triad)
         return x, y, z
+
+
+def _smear(
+    sense: Sense, lengths: Array, quadrature: Callable[[float], Sequence[tuple[float, float]]]
+) -> Sense:
+    """Voltages averaged over the delays, and with the weights, that a quadrature has for the length of each accelerometer, (n,)."""
+
+    def smeared(members: Index, earlier: float) -> Array:
+        present = sense(members, earlier)
+        change = np.zeros_like(present)
+        for length in np.unique(lengths[lengths != 0]):
+            rows = np.flatnonzero(lengths[members] == length)
+            # Adding the difference to the present, rather than the past itself, keeps a tiny lag accurate.
+            for delay, weight in quadrature(float(length)) if len(rows) else ():
+                change[rows] += weight * (sense(members[rows], earlier + delay) - present[rows])
+        return np.asarray(present + change)
+
+    return smeared
 
 
 def _lift(r: Taylor, lift: Taylor | None) -> Taylor:

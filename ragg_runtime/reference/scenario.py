@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Literal
 
 import numpy as np
@@ -151,7 +151,7 @@ def turbulence(
 
 @dataclass(frozen=True)
 class Scenario:
-    """A test ``sheet`` (what the model believes), a true ``instrument`` that flies, and a flight as in ``simulate``."""
+    """A test ``sheet`` (what the model believes), a true ``instrument`` that flies, and a flight: arguments of :func:`simulate`."""
 
     sheet: Instrument
     instrument: Instrument
@@ -168,20 +168,8 @@ class Scenario:
         self, effects: EffectValues | None = None, *, record_gradient: bool = True, start: float = 0.0
     ) -> Simulation:
         """Fly it, from ``start`` s on, with hidden effects ``{id: {parameter: value or four values, SI}}``."""
-        return simulate(
-            self.instrument,
-            self.motion,
-            self.duration,
-            self.rate,
-            start=start,
-            gravity=self.gravity,
-            record_gradient=record_gradient,
-            noise=self.noise,
-            rotations=self.rotations,
-            effects=effects,
-            seed=self.seed,
-            auxiliaries=self.auxiliaries,
-        )
+        flight = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "sheet"}
+        return simulate(**flight, start=start, record_gradient=record_gradient, effects=effects)
 
 
 def draw_motion(
