@@ -21,8 +21,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.base.files import digest_sources, find_private_folder, read_text, write_text
 from ragg_runtime.instrument import layout as layouts
-from ragg_runtime.instrument.instrument import PAPER_FORM, EffectSetting, Form, Instrument
-from ragg_runtime.instrument.layout import PAPER as FOUR
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.directory import DIGEST, compute_digest, read_digest
 from ragg_runtime.model.model import Model, load_files, load_packaged
@@ -82,7 +81,7 @@ def find_effect(effects: Mapping[str, E], identifier: str, where: str | None = N
 
 def find_offered(instrument: Instrument, *ids: str) -> list[SymbolicEffect]:
     """The effects of these ids; UserError if there is none, or if the form of the instrument's model holds it already."""
-    catalogue, form = list_known(instrument), _make_symbolic_form(instrument.form, instrument.layout)
+    catalogue, form = list_known(instrument), make_symbolic_form(instrument)
     definitions = [find_effect(catalogue, i, at(instrument.path, "effects")) for i in ids]
     for e in definitions:
         if e.moot(form.order, form.kinematics):
@@ -126,38 +125,28 @@ def _derive_files(
     digest = identify(instrument, ids, candidates=candidates)
     files = load_kept(digest)
     if files is None:
+        from derive import pipeline
+
         catalogue = tuple(list_known(instrument).values()) if candidates else ()
-        definitions = tuple(find_offered(instrument, *ids))
-        _, files = derive_model(definitions, catalogue, instrument.form, instrument.layout)
+        definitions = find_offered(instrument, *ids)
+        with _SYMPY:
+            files = pipeline.derive_model(definitions, catalogue, make_symbolic_form(instrument))
         keep_files(digest, files)
     return files
 
 
-@cache
-def derive_model(
-    effects: tuple[SymbolicEffect, ...],
-    candidates: tuple[SymbolicEffect, ...],
-    form: Form = PAPER_FORM,
-    layout: Layout = FOUR,
-) -> tuple[Model, Mapping[str, str]]:
-    """A model of this form with these effects, and the files that its derivation yields."""
-    from derive import pipeline
-
-    with _SYMPY:
-        files = pipeline.derive_model(effects, candidates, _make_symbolic_form(form, layout))
-    return load_files(files, layout), files
-
-
-def _make_symbolic_form(form: Form, layout: Layout) -> SymbolicForm:
+def make_symbolic_form(instrument: Instrument) -> SymbolicForm:
+    """The form of an instrument's model as the derivation takes it."""
     from derive.layout import SymbolicForm
     from derive.stages import Order
 
+    form, layout = instrument.form, _make_symbolic_layout(instrument.layout)
     order = Order(
         rotation=None if form.mounting == "exact" else int(form.mounting),
         misalignment=None if form.misalignment == "exact" else int(form.misalignment),
         second_order_angles=form.second_order_angles,
     )
-    return SymbolicForm(order=order, kinematics=form.kinematics, layout=_make_symbolic_layout(layout))
+    return SymbolicForm(order=order, kinematics=form.kinematics, layout=layout)
 
 
 def _make_symbolic_layout(layout: Layout) -> SymbolicLayout:
@@ -211,7 +200,7 @@ def derive_plain_c(instrument: Instrument) -> Mapping[str, str]:
     from derive import pipeline
 
     definitions = find_offered(instrument, *(s.id for s in instrument.effects))
-    return pipeline.derive_plain(definitions, _make_symbolic_form(instrument.form, instrument.layout))
+    return pipeline.derive_plain(definitions, make_symbolic_form(instrument))
 
 
 def read_chain(instrument: Instrument) -> str:

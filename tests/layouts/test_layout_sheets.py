@@ -97,7 +97,7 @@ def test_what_is_far_off_its_sheet_is_called_by_its_name_there() -> None:
     K1 = np.array(instrument.accelerometers["K1"])
     K1[1] *= 1.01
     flight = flown_by(replace(instrument, accelerometers={**instrument.accelerometers, "K1": K1}), 60.0)
-    model = derive.derive_model((), (), instrument.form, instrument.layout)[0]
+    model = replace(derive.load_model(instrument), candidates=())
 
     farthest = compare(model, instrument, [flight]).off_sheet[0]
     assert farthest.name == "K1"

@@ -52,7 +52,7 @@ def worst(i: Instrument, flight: Flight, inner: slice = slice(20, -20)) -> float
     """Largest difference of any output from the flight's, in C or NumPy, Eo; by default not at the ends, where the rate of a recorded
     angle is less sure.
     """
-    model, _ = derive.derive_model((), (), i.form, i.layout)
+    model = derive.load_model(i, candidates=False)
     p = make_vector(model, i)
     differences = []
     for k, o in enumerate(i.layout.outputs):
@@ -188,7 +188,7 @@ def left(model: Model, flight: Flight, p: NDArray[np.float64]) -> float:
 
 
 def base() -> Model:
-    return derive.derive_model((), (), leaning().form, leaning().layout)[0]
+    return derive.load_model(leaning(), candidates=False)
 
 
 @pytest.mark.parametrize("id_", WITH_DIRECTIONS)
@@ -200,7 +200,7 @@ def test_an_effect_of_a_direction_is_the_reference_s(id_: str) -> None:
     values = {q.name: size * rng.uniform(0.7, 1.3, 1 if q.shared else 3) for q, size in sizes.items()}
     parameters = {n: v if len(v) > 1 else float(v[0]) for n, v in values.items()}
     flight = flown(i, 30.0, kinematics="full", effects={id_: parameters})
-    model, _ = derive.derive_model((effect,), (), i.form, i.layout)
+    model = derive.with_effects(i, base(), [id_])
     p = make_vector(model, i)
     for q in effect.parameters:
         p[model.chain.places[effect.symbol(q).name]] = values[q.name]

@@ -23,7 +23,7 @@ RADIUS = 0.013364
 
 
 def calibrated(i: Instrument, *names: str) -> Fitted:
-    model, _ = derive.derive_model((), (), i.form, i.layout)
+    model = derive.load_model(i, candidates=False)
     flights = [read_flight(HERE / f"{n}.parquet", i.g0, accelerometers=i.layout) for n in names]
     return fit(model, i, observe_flights(flights, i))
 

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from derive import pipeline
 from derive.effects import catalogue
 from ragg_runtime import api
 from ragg_runtime.api import Loaded
@@ -31,7 +32,7 @@ from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.model import derive
 from ragg_runtime.model.directory import ModelDir
-from ragg_runtime.model.model import evaluate_output, make_vector
+from ragg_runtime.model.model import evaluate_output, load_files, make_vector
 from ragg_runtime.model.record import record
 from ragg_runtime.reference import EffectValues
 from ragg_runtime.signals.demodulators import COMPONENTS, Demodulator, solve_tensor
@@ -60,7 +61,7 @@ def flight_of(which: str) -> tuple[Instrument, Flight]:
 
 def compared(which: str) -> comparison.Together:
     sheet, flight = flight_of(which)
-    model, _ = derive.derive_model((), (), sheet.form, sheet.layout)
+    model = derive.load_model(sheet, candidates=False)
     (together,) = comparison.compare_outputs(fit(model, sheet, observe_flights([flight], sheet)))
     return together
 
@@ -94,7 +95,7 @@ AT = 71.3
 def test_a_step_is_found_in_several_outputs(hidden: bool) -> None:
     sheet = parse_instrument(sheets.sheet(sheets.complements(), 8, sheets.FULL))
     candidates = tuple(e for e in catalogue() if e.id in ("bias-step", "gain-step"))
-    model, _ = derive.derive_model((), candidates, sheet.form, sheet.layout)
+    model = load_files(pipeline.derive_model((), candidates, derive.make_symbolic_form(sheet)), sheet.layout)
     size = [0, 0, 2e-8, 0, 0, 0, 0, 0]
     effects: EffectValues = {"gain-step": {"dK1": size, "t_step": AT}} if hidden else {}
     stage = Stage.of(fit(model, sheet, observe_flights([flown_by(sheet, 120.0, effects)], sheet)))
@@ -114,7 +115,7 @@ def compensated(
     which: str, kind: Kind
 ) -> tuple[PreparedFlights, tuple[OutputChannel, ...], dict[str, NDArray[Any]]]:
     sheet, flight = flight_of(which)
-    model, _ = derive.derive_model((), (), sheet.form, sheet.layout)
+    model = derive.load_model(sheet, candidates=False)
     p = prepare(model, sheet, [flight], kind)
     (channels,) = p.channels
     return p, channels, make_columns(sheet, channels, [c.compensate() for c in channels])
@@ -189,7 +190,7 @@ def test_a_disc_that_stands_still_is_left_out_and_alone_refused() -> None:
     still = parse_instrument(
         sheets.sheet([sheets.disc("B", [sheets.accelerometer("B1", 0.0, 1)], spin=0.0)], 1)
     )
-    model, _ = derive.derive_model((), (), still.form, still.layout)
+    model = derive.load_model(still, candidates=False)
     _, flight = flight_of("odd")
     outputs = {"G_out": flight.outputs["G_out_B"]}
     with pytest.raises(UserError, match="no output of a spinning disc"):
@@ -200,10 +201,10 @@ def test_a_disc_that_stands_still_is_left_out_and_alone_refused() -> None:
 def contents() -> Contents:
     """A vertical disc with heights and directions beside one that stands still."""
     i = instrument("odd", sheets.FULL)
-    model, files = derive.derive_model((), (), i.form, i.layout)
+    model = derive.load_model(i, candidates=False)
     return Contents(
         name="odd", model=model, instrument=i, p=make_vector(model, i), sources=derive.derive_plain_c(i),
-        module=files["chain.py"], origin="values of model.toml",
+        module=derive.read_chain(i), origin="values of model.toml",
     )  # fmt: skip
 
 

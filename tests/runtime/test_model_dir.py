@@ -232,7 +232,7 @@ def mine(identifier: str) -> str:
 
 def forget() -> None:
     """What this process has derived and loaded so far."""
-    for cache in (derive.derive_model, derive._load_installed, derive._execute_files):
+    for cache in (derive._load_installed, derive._execute_files):
         cache.cache_clear()
 
 
