@@ -17,7 +17,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from pathlib import Path
@@ -239,11 +239,7 @@ class Chain:
             return four if indices == (0, 1, 2, 3) else four[list(indices)]
         V = np.empty((len(indices), len(case[0])))
         for v, j in zip(V, indices, strict=True):
-            if self.library is not None:
-                self._call(f"{self.name}_voltage", (j,), case, v)
-            else:
-                for rows, block in self._blocks(j, case):
-                    v[rows] = self.module.accelerometer(j, *block)
+            self._fill(v, "voltage", self.module.accelerometer, j, case)
         return V
 
     def derivatives(
@@ -252,12 +248,20 @@ class Chain:
         """Derivatives of V_j, j counted from 0, (rows, N), in the order of ROWS."""
         case = self._case(t, inputs, p, angle)
         D = np.empty((len(self.ROWS), len(case[0])))
-        if self.library is not None:
-            self._call(f"{self.name}_derivatives", (j,), case, D)
-        else:
-            for rows, block in self._blocks(j, case):
-                D[:, rows] = self.module.derivatives(j, *block)
+        self._fill(D, "derivatives", self.module.derivatives, j, case)
         return D
+
+    def _fill(self, result: Array, name: str, by_numpy: Callable[..., Array], j: int, case: _Case) -> None:
+        """A result (..., N) of accelerometer j, by the function of this name in machine code, else by NumPy."""
+        if self.library is not None:
+            self._call(f"{self.name}_{name}", (j,), case, result)
+            return
+        t, x, p, angle = case
+        q = self.module.values_of(j, p)
+        for rows in split_range(len(t), BLOCK):
+            phi = disc_angle(t[rows], float(q[1])) if angle is None else angle[rows]
+            samples = np.stack([v[rows] for v in x])
+            result[..., rows] = by_numpy(j, t[rows], np.cos(phi), np.sin(phi), samples, q)
 
     def _call(self, function: str, leading: tuple[int, ...], case: _Case, result: Array) -> None:
         """The generated C takes n, t, in, p and angle, and what it is to fill."""
@@ -265,14 +269,6 @@ class Chain:
         rows = (ctypes.c_void_p * len(x))(*(v.ctypes.data for v in x))
         call = getattr(self.library, f"ragg_{function}")
         call(*map(ctypes.c_size_t, (*leading, len(t))), _at(t), rows, _at(p), _at(angle), _at(result))
-
-    def _blocks(self, j: int, case: _Case) -> Iterator[tuple[slice, tuple[Array, ...]]]:
-        """Samples, and what the generated NumPy functions take of them for accelerometer j."""
-        t, x, p, angle = case
-        q = self.module.values_of(j, p)
-        for rows in split_range(len(t), BLOCK):
-            phi = disc_angle(t[rows], float(q[1])) if angle is None else angle[rows]
-            yield rows, (t[rows], np.cos(phi), np.sin(phi), np.stack([v[rows] for v in x]), q)
 
     def _case(self, t: ArrayLike, inputs: Inputs, p: ArrayLike, angle: ArrayLike | None) -> _Case:
         """The arguments as the generated code takes them: contiguous float64 is used where it lies, the rest converted."""
