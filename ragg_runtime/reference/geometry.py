@@ -4,6 +4,7 @@ quantities with their first two derivatives in time.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
@@ -124,20 +125,17 @@ class Taylor:
     first: Array
     second: Array
 
-    @classmethod
-    def constant(cls, value: Array | float) -> Taylor:
-        """A constant."""
-        value = np.asarray(value, dtype=np.float64)
-        return cls(value, np.zeros_like(value), np.zeros_like(value))
+    def __iter__(self) -> Iterator[Array]:
+        return iter((self.value, self.first, self.second))
 
     def __add__(self, other: Taylor | Array | float) -> Taylor:
         if not isinstance(other, Taylor):
             return Taylor(self.value + other, self.first, self.second)
-        return Taylor(self.value + other.value, self.first + other.first, self.second + other.second)
+        return Taylor(*(a + b for a, b in zip(self, other, strict=True)))
 
     def __mul__(self, other: Taylor | Array | float) -> Taylor:
         if not isinstance(other, Taylor):
-            return Taylor(self.value * other, self.first * other, self.second * other)
+            return Taylor(*(a * other for a in self))
         return Taylor(
             self.value * other.value,
             self.first * other.value + self.value * other.first,
@@ -159,27 +157,18 @@ class Taylor:
 
     def turn(self, matrix: Array) -> Taylor:
         """A vector (3, N) after a constant rotation (3, 3)."""
-        return Taylor(matrix @ self.value, matrix @ self.first, matrix @ self.second)
+        return Taylor(*(matrix @ a for a in self))
 
 
 def stack(parts: tuple[Taylor, Taylor, Taylor]) -> Taylor:
     """Three components as one vector, (3, N)."""
-    shape = np.broadcast_shapes(*(p.value.shape for p in parts))
-    return Taylor(
-        np.stack([np.broadcast_to(p.value, shape) for p in parts]),
-        np.stack([np.broadcast_to(p.first, shape) for p in parts]),
-        np.stack([np.broadcast_to(p.second, shape) for p in parts]),
-    )
+    return Taylor(*(np.stack(np.broadcast_arrays(*same)) for same in zip(*parts, strict=True)))
 
 
 def spin(vectors: Array, angle: Taylor) -> list[Taylor]:
     """Vectors (n, 3) fixed to the disc, seen from the platform while the disc angle (N,) runs on, (3, N) each."""
     c, s = angle.cosine(), angle.sine()
-    shape = angle.value.shape
-    return [
-        stack((c * x + s * -y, s * x + c * y, Taylor.constant(np.full(shape, z))))
-        for x, y, z in vectors.tolist()
-    ]
+    return [stack((c * x + s * -y, s * x + c * y, 0.0 * c + z)) for x, y, z in vectors.tolist()]
 
 
 def carry(vector: Taylor, omega: Array, omegadot: Array) -> Array:

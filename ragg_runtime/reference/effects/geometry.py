@@ -40,10 +40,7 @@ def run_out(phi: Taylor, effects: Injected) -> Taylor | None:
     waves = {(a, n): w for n in (1, 2) for a, w in (("c", (phi * n).cosine()), ("s", (phi * n).sine()))}
 
     def along(k: str) -> Taylor:
-        total = Taylor.constant(np.zeros(phi.value.shape))
-        for (a, n), wave in waves.items():
-            total = total + wave * float(path[f"{a}_{k}{n}"])
-        return total
+        return sum((wave * float(path[f"{a}_{k}{n}"]) for (a, n), wave in waves.items()), 0.0 * phi)
 
     return stack((along("x"), along("y"), along("z")))
 
