@@ -189,7 +189,8 @@ def _leave_out_rows(si: dict[str, Array], table: DataTable) -> list[str]:
     notes = list[str]()
 
     def leave_out(wrong: Mask, what: str, first: str) -> None:
-        if wrong.any() and np.all(np.diff(si["time"][~wrong]) > 0):
+        rest = si["time"][~wrong]
+        if wrong.any() and len(rest) > 1 and np.all(np.diff(rest) > 0):
             notes.append(f"{count(int(np.sum(wrong)), 'row')} {what} left out (the first {first})")
             si.update({n: x[~wrong] for n, x in si.items()})
 

@@ -322,7 +322,7 @@ def _read_plain(table: DataTable) -> DataTable:
             notes.append("skipped, the index: numbers without a unit; if it is the time, name it time [s]")
     chosen: dict[str, tuple[DataColumn, Entry]] = {}
     for c in (c for c in table.columns if c is not time and c is not index):
-        if c is not by_name[c.name]:
+        if c.name in chosen or (c.name == "time" and time is not None):
             if c.name in SI_UNITS:
                 what = f"the column {c.name!r} appears twice"
                 raise UserError(what, where=table.place, remedy="rename one")

@@ -129,7 +129,7 @@ def bridge_gaps(x: Array, present: Mask, *, smooth: bool = False, turning: bool 
         return x
     at, k = np.flatnonzero(present), np.arange(len(x))
     values = np.unwrap(x[at]) if turning else x[at]
-    turn = np.polyfit(at, values, 1) if turning else np.zeros(1)
+    turn = np.polyfit(at, values, 1) if turning and len(at) > 1 else np.zeros(1)
     off = values - np.polyval(turn, at)
     bridge, apart = np.interp(k, at, off), np.diff(at)
     wide = np.flatnonzero(apart > FAR * np.median(apart if len(apart) else 1)) + 1

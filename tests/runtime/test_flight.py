@@ -213,6 +213,7 @@ T = np.arange(N) / RATE
         ("\n\n", ("no header",)),
         (edited(time=T + np.random.default_rng(3).uniform(-0.4, 0.4, N) / RATE), ("not uniformly sampled",)),
         (edited(time=np.full(N, 3.0)), ("too coarse", "the clock stands still")),
+        (dict.fromkeys(columns(), np.zeros(N)), ("too coarse", "the clock stands still")),
         (edited(time=T[::-1]), ("backwards",)),
         (edited(time=T - (T > 0.6)), ("jump back", "row 10", "row 11", "0.5625 s")),
         (edited(time=np.repeat(T[: N // 2], 2)), ("too coarse", "100 different stamps in 200 rows")),

@@ -55,6 +55,7 @@ def test_lost_rates_are_predicted_from_those_beside_them() -> None:
     assert off[0] < off[1] / 10
     # nothing to learn from
     assert np.array_equal(predict_missing(x, ~present), bridge_gaps(x, ~present, smooth=True))
+    assert np.all(bridge_gaps(x, np.arange(4800) == 0, turning=True) == x[0])
 
 
 def test_the_error_of_a_derived_acceleration_is_part_of_the_noise_and_accuses_nothing() -> None:
