@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations, pairwise
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -16,14 +16,13 @@ from ragg_runtime.model.record import disc_angle, find_start
 from ragg_runtime.screening.linear_fit import (
     Hypothesis,
     Index,
-    LinearFit,
     Sampler,
     find_least,
     fit_robustly,
-    fit_rows,
     linearise,
 )
 from ragg_runtime.signals.demodulators import is_demodulable, low_pass
+from ragg_runtime.signals.derivative import runs
 from ragg_runtime.signals.fir import convolve, find_step
 
 Array = NDArray[np.float64]
@@ -47,8 +46,8 @@ ORIGINS = ("zero", "first-sample")  # angle_origin of model.toml
 LEAST_PHASE = np.deg2rad(5.0)
 # turns by which the disc may be ahead where rows were lost, or behind where some were doubled, that are tried first
 TURNED = np.array([-15, -8, -4, -2, 2, 4, 8, 15, *range(30, 360, 30)]) / 360
-# parts of a record of which some neighbours may be of another one, that are tried first; the best are then refined
-INSTANTS = 16
+# fits of the model to what is of one record, in turn with the search for what is not; most that may be of another
+ROUNDS, MOST_OTHER = 3, 0.5
 
 TELLING_PHASE = 3e-5
 """Angle, rad, that an error of the spin rate may add up to over a record and stay unseen: of a gradient of 3000 Eo that is
@@ -198,34 +197,30 @@ def _propose_losses(s: Sampler) -> list[Hypothesis]:
 def propose_parts(s: Sampler) -> list[Hypothesis]:
     """Another record lies between two instants: the model leaves more of it than effects would, and explains the rest without it."""
     rows, n = s.rows(most=PART_ROWS), len(s.flight)
-    sample = s.take(rows)
-    X, y = (x.reshape(*x.shape[:-2], -1) for x in linearise(sample))
-    positions, size = np.tile(rows, len(sample.data)), fit_rows(sample).size
-
-    def judge(first: float, last: float) -> tuple[float, float]:
-        """The mean misfit, 0 within the part, as of a model that predicts nothing; and the residual of the part over the output, rms."""
-        inside = (positions >= first) & (positions < last)
-        if not inside.any():
-            return np.inf, 0.0
-        theta, kept, _ = fit_robustly(X[:, ~inside], y[~inside])
-        residual = y - theta @ X
-        rms, part = (float(np.sqrt(np.mean(x**2))) for x in (residual[~inside][kept], residual[inside]))
-        rest = LinearFit(rms, size, theta, 0.0, 0.0, float(np.mean(kept)))
-        return (1.0 - float(np.mean(inside))) * rest.misfit, part / size
-
-    def refine(first: float, last: float) -> tuple[float, float]:
-        first = find_least(lambda a: judge(a, last)[0], first + near, spacing / 64) if first > 0 else first
-        last = find_least(lambda b: judge(first, b)[0], last + near, spacing / 64) if last < n else last
-        return max(first, 0.0), min(last, float(n))
-
-    edges, spacing = np.linspace(0, n, INSTANTS + 1), n / INSTANTS
-    near = spacing * np.array([-1.0, 0.0, 1.0])
-    windows = [(a, b) for a, b in combinations(edges, 2) if b - a <= n / 2 + 1]
-    first, last = refine(*refine(*min(windows, key=lambda x: judge(*x)[0])))
-    rest = s.fit(rows[(rows < first) | (rows >= last)])
-    if judge(first, last)[1] < LARGE or rest.share > SMALL:
+    X, y = linearise(s.take(rows))
+    size = s.fit(rows).size
+    best, other, residual = np.inf, np.zeros(len(rows), dtype=np.bool_), y
+    for known in np.array_split(np.arange(len(rows)), 3):  # one of them is of one record, at least
+        for _ in range(ROUNDS):
+            if not len(known):
+                break
+            theta, rms = _fit_segment(X, y, known)
+            left = y - np.tensordot(theta, X, 1)
+            states = np.stack([np.mean(left**2, axis=0), np.full(len(rows), SMALL * LARGE * size**2)])
+            costs = np.log(rms**2 + states)
+            path = find_path(costs, SWITCH)
+            total, known = float(np.sum(costs[path, np.arange(len(rows))])), np.flatnonzero(path == 0)
+            if total < best:
+                best, other, residual = total, path == 1, left
+    found = runs(other)
+    if len(found) != 1 or np.mean(other) > MOST_OTHER:
         return []
-    begins, ends = (f"t = {s.flight.time[min(int(k), n - 1)]:.4g} s" for k in (first, last))
+    edges = np.r_[0, (rows[1:] + rows[:-1]) // 2, n]
+    first, last = int(edges[found[0].start]), int(edges[found[0].stop])
+    rest = s.fit(rows[~other])
+    if float(np.sqrt(np.mean(residual[:, other] ** 2))) < LARGE * size or rest.share > SMALL:
+        return []
+    begins, ends = (f"t = {s.flight.time[min(k, n - 1)]:.4g} s" for k in (first, last))
     what = (
         f"the model explains the record, but not what lies between {begins} and {ends} (another instrument, range, sign, axis or"
         " wiring there?)"
@@ -383,9 +378,9 @@ def _follow_lags(
         yield np.asarray(lags)[find_path(np.log1p(square / rms**2), SWITCH)]
 
 
-def _fit_segment(X: Array, y: Array, end: slice) -> tuple[Array, float]:
+def _fit_segment(X: Array, y: Array, some: slice | Index) -> tuple[Array, float]:
     """Coefficients (n,) of columns (n, m, N) by some of their rows, and the size of what they leave there, Eo."""
-    columns, data = X[:, :, end].reshape(len(X), -1), y[:, end].reshape(-1)
+    columns, data = X[:, :, some].reshape(len(X), -1), y[:, some].reshape(-1)
     theta, kept, _ = fit_robustly(columns, data)
     return theta, max(float(np.sqrt(np.mean((data - theta @ columns)[kept] ** 2))), 1e-12)
 
