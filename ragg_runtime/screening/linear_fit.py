@@ -24,7 +24,6 @@ from ragg_runtime.io import Flight
 from ragg_runtime.io.record import GRADIENT
 from ragg_runtime.model.model import Model, evaluate_voltages, make_vector, scale_factor
 from ragg_runtime.model.record import (
-    SPIN,
     Record,
     RecordedSeries,
     disc_angle,
@@ -68,8 +67,10 @@ class Rows:
     def inner(self) -> Index:
         """Rows that are fitted: of channels those where the demodulator has seen enough of the record on either side."""
         usable, edge = self.record.valid, self.sampler.reach
+        if not self.sampler.recorded.demodulated:
+            return np.arange(len(usable))
         rows = edge + np.flatnonzero(usable[edge : len(usable) - edge])
-        return rows[:: max(1, len(rows) // TELLING)] if edge else np.arange(len(usable))
+        return rows[:: max(1, len(rows) // TELLING)]
 
     def predict(self, p: Array) -> Array:
         """(m, n) V: the output of a model with parameters p, SI, before any demodulation."""
@@ -136,7 +137,6 @@ class Sampler:
         output_later: int | Index = 0,
         spin_frequency: float | None = None,
         phase: float | Array = 0.0,
-        backwards: bool = False,
     ) -> Rows:
         """Rows of the flight.
 
@@ -151,8 +151,6 @@ class Sampler:
             Hz, in place of the instrument's (or the encoder's angle).
         phase
             rad, added to the disc angle; one, or (n,).
-        backwards
-            Let the disc turn the other way.
         """
         r, n = self.record, len(self.flight)
         rows = self.rows() if rows is None else rows
@@ -169,9 +167,6 @@ class Sampler:
             f = r.spin_frequency if spin_frequency is None else spin_frequency
             phi = disc_angle(time, f, r.start)
             wide |= make_spin(f, len(rows))
-        if backwards:
-            phi = -phi
-            wide |= {name: -wide[name] for name in SPIN if name in wide}
         wide[r.angle_column] = phi + (phase[inside] if isinstance(phase, np.ndarray) else phase)
         data = np.nan_to_num(np.stack([self.flight.outputs[v][output_at] for v in self.columns]), copy=False)
         if self.recorded.demodulated:  # inline and cross

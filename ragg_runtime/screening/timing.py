@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 from scipy import optimize, signal
 
 from ragg_runtime.base.errors import count
-from ragg_runtime.model.record import disc_angle, find_start
+from ragg_runtime.model.record import SPIN, disc_angle, find_start
 from ragg_runtime.screening.linear_fit import (
     Hypothesis,
     Index,
     Sampler,
     find_least,
     fit_robustly,
+    fit_rows,
     linearise,
 )
 from ragg_runtime.signals.demodulators import is_demodulable, low_pass
@@ -88,8 +89,9 @@ def _propose_spin(s: Sampler) -> list[Hypothesis]:
     """The spin rate at which the model explains most, coarse to fine: half a turn of error at each step."""
     x, f0 = s.flight, s.disc.spin_frequency
     remedy = "reverse the sign of spin_angle, or turn the axes of the record (y and z reversed)"
-    fitted = s.fit(backwards=True)
-    backwards = Hypothesis("the disc turns the other way", remedy, fitted, COST - 1.0)
+    whole = s.take()
+    turned = {n: -x for n, x in whole.record.wide.items() if n in (s.disc.angle_column, *SPIN)}
+    backwards = Hypothesis("the disc turns the other way", remedy, fit_rows(whole.change(turned)), COST - 1.0)
     late = 0.0 if s.has_encoder else abs(find_start(x, s.instrument))
     if late > LATEST:
         return [backwards]
