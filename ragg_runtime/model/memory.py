@@ -103,7 +103,7 @@ def _compute_responses(r: Record, m: Memory, names: Container[str]) -> dict[str,
     """Name -> (before + N + after,), as the channels of a part."""
     record = r.whole or r
     start, stop = r.first, r.first + len(r.time) + sum(r.halo)
-    reach = min(int(np.ceil(m.lasts * r.rate)), len(record.time))
+    reach = min(int(np.ceil(abs(m.lasts) * r.rate)), len(record.time))  # of a fit that went below zero, too
     first, last = max(start - reach, 0), min(stop + reach, len(record.time))
     near = record.part(slice(first, last))
     # a part of a record has zeros for what is missing
