@@ -39,6 +39,8 @@ BRIDGED = 2.0
 ENDLESS = 1e100  # in SI: beyond it a value counts as missing, as infinity does
 # share of a file's samples from which on, if something lacks in them, the rest is no evidence
 MOST_UNUSED = 0.5
+# share of the rows with motion, or with an output, that have both, up to which they are two records
+JOINED = 0.1
 _TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplace) is plainly violated
 
 
@@ -78,6 +80,7 @@ def make_flight(
     table = replace(table, columns=kept, notes=(*table.notes, *_pass_over(table.names)))
     si, si_units = _convert(table, g0, accelerometers)
     left_out = _leave_out_rows(si, table)
+    _require_rows_in_common(si, [c for c in (*accelerometers.columns, *DEMODULATED) if c in si], table.place)
     grid = make_grid(si.pop("time"), table.place)
     notes = [*table.notes, *left_out, *_leave_out_impossible(si, si_units), *grid.notes]
     placed = {c: _place(si.pop(c), grid) for c in [*si]}  # of a day at 100 Hz each is 70 MB
@@ -222,6 +225,22 @@ def _leave_out_impossible(si: dict[str, Array], si_units: Mapping[str, str]) -> 
             si[name] = np.where(cold, np.nan, si[name])
             notes.append(f"{name}: {count(int(np.sum(cold)), 'sample')} not above absolute zero, left out")
     return notes
+
+
+def _require_rows_in_common(si: Mapping[str, Array], outputs: Sequence[str], place: str) -> None:
+    """UserError if motion and ``outputs`` are in different rows."""
+    moving = np.all([np.isfinite(si[n]) for n in (*SPECIFIC_FORCE, *ANGULAR_RATE)], axis=0)
+    recorded = np.any([np.isfinite(si[n]) for n in outputs] or [moving], axis=0)
+    both, fewer = int(np.sum(moving & recorded)), int(min(np.sum(moving), np.sum(recorded)))
+    if both < JOINED * fewer:
+        raise UserError(
+            "motion and output are in different rows: two records joined by their times?",
+            where=place,
+            found=f"motion in {np.sum(moving)} of {len(moving)} rows, an output in {np.sum(recorded)}, both in {both}",
+            expected="motion and output at the same instants",
+            remedy="interpolate the motion at the instants of the output by splines (pandas: set_index of the time, then"
+            " interpolate('cubicspline') of the motion), and keep the rows with an output",
+        )
 
 
 def _require_names(table: DataTable, needed: Sequence[str], what: str) -> None:

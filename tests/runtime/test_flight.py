@@ -189,7 +189,7 @@ def without(*names: str) -> dict[str, np.ndarray]:
 
 
 TEXT = csv_text(columns(5))
-T = np.arange(N) / RATE
+T, ODD = np.arange(N) / RATE, np.where(np.arange(N) % 2, 1.0, np.nan)
 
 
 @pytest.mark.parametrize(
@@ -219,6 +219,7 @@ T = np.arange(N) / RATE
         (edited(time=np.repeat(T[: N // 2], 2)), ("too coarse", "100 different stamps in 200 rows")),
         (edited(time=np.where(T < 6, T, T + 1e6)), ("jump by 1e+06 s at t = 5.9375 s", "split")),
         (edited(G_out=np.full(N, np.nan), time=T), ("output is missing",)),
+        (edited(a_x=ODD, G_out=ODD[::-1]), ("in different rows", "both in 0")),
     ],
 )
 def test_what_is_refused(load, tmp_path, table, facts) -> None:
