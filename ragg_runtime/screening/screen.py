@@ -15,7 +15,14 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc
 from ragg_runtime.io import Flight
 from ragg_runtime.io.assemble import FEWEST_LEVELS, derive_acceleration
-from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, DEMODULATED, SPECIFIC_FORCE, Flag
+from ragg_runtime.io.record import (
+    ANGULAR_ACCELERATION,
+    ANGULAR_RATE,
+    DEMODULATED,
+    SPECIFIC_FORCE,
+    Flag,
+    is_disc_angle,
+)
 from ragg_runtime.io.sampling import (
     JITTER_NOTED,
     WAS_SET,
@@ -48,9 +55,14 @@ SAME_SIZE = 2.0
 # samples from which two series can be compared, or a clock is looked at: with fewer the model fits any
 FEWEST = 64
 
-LEAP, SIDE, SMOOTH = 0.8, 4, 0.05
+LEAP, SIDE, SMOOTH, TURNED = 0.8, 4, 0.05, 0.1
 """Share of its range by which a column leaps where its numbers overflow; samples on either side in which it moves on by more than two
-usual steps (a platform that is set from one attitude to another rests there); share of the range of a usual step, at most."""
+usual steps (a platform that is set from one attitude to another rests there); share of the range of a usual step, at most; share of the
+leaps beside which it may turn: a force about the limit crosses it to and fro."""
+
+FEWEST_FALLS, MOST_FALLS, SAME_TURN = 3, 0.25, 0.02
+"""Falls of a disc's angle, at least, that tell the size of a turn; their share of the samples, at most; relative distance from a turn that
+is rounding."""
 
 # relative distance of the encoder's rate from the model's spin rate that a disc's own slowness may have
 SAME_SPIN = 2e-3
@@ -78,6 +90,8 @@ def require_comparable(model: Model, instrument: Instrument, flight: Flight) -> 
                 remedy=f"record it, or take the effect out: ragg remove MODEL_DIR {e.id}",
             )
     _require_force(where, flight, instrument.g0)
+    for column in filter(is_disc_angle, flight.channels):
+        _require_turns(where, flight, column)
     f = max(abs(d.spin_frequency) for d in instrument.layout.discs)
     check = "check the unit of time (s, ms, min) and spin_frequency"
     if 0 < flight.duration * f < 1:
@@ -118,6 +132,24 @@ def _require_force(where: Path | str, flight: Flight, g0: float) -> None:
             found=f"{usual:.3g} g in half of the samples",
             expected=f"at most {LARGEST_FORCE:g} g",
             remedy="check their unit: cm/s^2 (Gal), mg or counts of a converter? The unit of a column can be corrected in a mapping",
+        )
+
+
+def _require_turns(where: Path | str, flight: Flight, column: str) -> None:
+    """UserError if the angle of a disc falls back by another size than a turn or a few: it is in counts, or in degrees."""
+    angle = flight.channels[column][flight.valid]
+    steps = np.abs(np.diff(angle))
+    falls = steps > LEAP * (np.ptp(angle) if len(angle) else 0.0)
+    if not FEWEST_FALLS <= np.sum(falls) <= MOST_FALLS * len(steps):
+        return  # it counts on, or is too coarse to tell
+    turn = float(np.median(steps[falls]) + np.median(steps[~falls]))
+    if np.min(np.abs(turn / (2 * np.pi * np.arange(1, 5)) - 1.0)) > SAME_TURN:
+        raise UserError(
+            "the angle of the disc does not begin anew after whole turns",
+            where=at(where, f"column {column!r}"),
+            found=f"it falls back by {turn:.6g} rad, {count(int(np.sum(falls)), 'time')}",
+            expected=f"by 2 pi = {2 * np.pi:.6g} rad",
+            remedy=f'if these are counts of an encoder, or degrees: scale = {2 * np.pi / turn:.9g}, unit = "rad" in a mapping',
         )
 
 
@@ -171,7 +203,7 @@ def _flag_leaps(flight: Flight) -> list[Flag]:
         moves = moves[moves < LEAP * span]  # not over another leap
         if usual > SMOOTH * span or not len(moves):
             continue
-        if np.median(moves) > 2 * usual and np.min(moves) > -2 * usual:
+        if np.median(moves) > 2 * usual and np.quantile(moves, TURNED) > -2 * usual:
             text = (
                 f"{name} leaps from one end of its range to the other and moves on there, {count(len(leaps), 'time')}, first"
                 f" at t = {flight.time[leaps[0] + 1]:.6g} s: did the numbers of a converter overflow?"

@@ -210,9 +210,10 @@ def test_readings_that_did_not_arrive_are_left_out() -> None:
 
 
 def test_numbers_that_overflow_are_said() -> None:
-    full = 0.9 * np.max(SMOOTH)
-    wrapped = (SMOOTH + full) % (2 * full) - full
-    for x in (Flight(TIME, {"a_x": wrapped}, {}), Flight(TIME, {}, {"G_out": wrapped})):
+    full = 0.9 * np.max(SMOOTH)  # a force about the limit crosses it to and fro
+    wrapped, often = ((x + full) % (2 * full) - full for x in (SMOOTH, full + 0.2 * SMOOTH + 0.002 * NOISE))
+    for channels, outputs in (({"a_x": wrapped}, {}), ({"a_x": often}, {}), ({}, {"G_out": wrapped})):
+        x = Flight(TIME, channels, outputs)
         (flag,) = _flag_leaps(x)
         assert flag.open and flag.columns == (*x.channels, *x.outputs) and "converter overflow" in flag.reason
     spiked = np.where(np.arange(N) % 1000 == 7, -9.0, SMOOTH)

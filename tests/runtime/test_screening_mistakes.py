@@ -241,8 +241,7 @@ def test_a_clock_that_was_set_is_said_with_its_time(monkeypatch, size: float, hi
 
 def test_stamps_that_scatter_or_drift_and_are_put_right_are_made_even() -> None:
     x, size = flown(12), 1e-3
-    e = size / x.rate * np.random.default_rng(1).standard_normal(len(x))
-    for wrong in (e, -3e-4 * (x.time % 40.0)):
+    for wrong in (size / x.rate * np.random.default_rng(1).standard_normal(len(x)), -3e-4 * (x.time % 40.0)):
         flight = screen(MODEL, drawn(12).sheet, replace(x, time=x.time + wrong))
         np.testing.assert_allclose(flight.time, x.time, rtol=0, atol=size / x.rate / 10)
 
@@ -273,6 +272,9 @@ def test_columns_that_contradict_each_other_are_remarked() -> None:
     ):
         assert any(words in f.reason for f in list_remarks(drawn(12).sheet, wrong))
     assert list_remarks(drawn(12).sheet, replace(x, channels={**c, "spin_angle": np.pi / 2 * x.time})) == []
+    counts = np.floor(1024 * (0.2501 * x.time % 1.0))
+    with pytest.raises(UserError, match=r"scale = 0\.0061[0-9]*, unit ="):
+        screen(MODEL, drawn(12).sheet, replace(x, channels={**c, "spin_angle": counts}))
     with pytest.raises(UserError, match="the specific force is larger than any flight's"):
         screen(MODEL, drawn(12).sheet, changed(x, lambda n, v: 1e3 * v if n[:2] == "a_" else v))
 
