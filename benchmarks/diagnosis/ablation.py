@@ -19,8 +19,8 @@ from benchmarks.diagnosis import plan, score
 from benchmarks.diagnosis.fly import fly
 from benchmarks.diagnosis.plan import Spec
 from benchmarks.diagnosis.score import Line
+from ragg_runtime.estimation.likelihood_ratio import Scatter
 from ragg_runtime.estimation.noise import Level
-from ragg_runtime.identification.likelihood_ratio import Scatter
 
 HALF = 20
 
@@ -78,11 +78,11 @@ RULES = (
     Rule("noise-level", "the noise's level follows time, motion or angle",
          "quiet ramp, quiet along-axes, quiet with-ax, quiet with-size, quiet cyclic, ten along-axes, ten ramp",
          {"estimation.noise_estimate._choose_level": lambda *a: Level()}),
-    Rule("drift", "a level may be of white noise upon a random walk",
-         "quiet walk-and-warmth, quiet walk-and-heave, ten with-ax", {"estimation.noise_estimate._choose_form": lambda a, o, n, x: n}),
+    Rule("drift", "noise may be white noise, of a level that changes or not, upon a random walk",
+         "quiet walk, quiet walk-and-heave, ten with-ax", {"estimation.noise_estimate._fit_drifts": lambda a, o, n, x: n}),
     Rule("uneven", "where the level changes, tests are tempered by the variance of their scores",
          "quiet red-along-axes, quiet size-and-temperature, quiet heavy-with-size, quiet amplifier, ten along-axes, five with-size",
-         {"identification.likelihood_ratio.temper_test": _first,
+         {"estimation.likelihood_ratio.temper_test": _first,
           "identification.omnibus.Scores.measure_scatter":
               lambda self, places: Scatter(np.ones(len(places)), np.full(len(places), np.inf))}),
     Rule("off-sheet", "priors are widened where the record requires it",

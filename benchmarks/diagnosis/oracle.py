@@ -26,11 +26,11 @@ from scipy.interpolate import BSpline
 from benchmarks.diagnosis.plan import World
 from benchmarks.diagnosis.records import Loudness, Table
 from ragg_runtime.base import false_alarms
+from ragg_runtime.estimation import likelihood_ratio
 from ragg_runtime.estimation import regressors as design
 from ragg_runtime.estimation.least_squares import compute_r_factor
 from ragg_runtime.estimation.observation import BLOCKS, observe
 from ragg_runtime.estimation.regressors import Column, linearise, make_point
-from ragg_runtime.identification import likelihood_ratio
 from ragg_runtime.identification.selection import ProjectedProblem
 from ragg_runtime.io import Flight
 from ragg_runtime.model.model import load_packaged, make_vector

@@ -13,7 +13,8 @@ from scipy import fft, optimize
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.drifting_noise import DriftingNoise
-from ragg_runtime.estimation.least_squares import add_prior
+from ragg_runtime.estimation.least_squares import add_prior, join
+from ragg_runtime.estimation.likelihood_ratio import COLLINEAR, TESTABLE, test
 from ragg_runtime.estimation.noise import (
     Level,
     NoiseModel,
@@ -24,7 +25,7 @@ from ragg_runtime.estimation.noise import (
     level_quantities,
 )
 from ragg_runtime.estimation.observation import ROWS, Observation, measure_information_per_sample, spread
-from ragg_runtime.estimation.regressors import LinearisationPoint
+from ragg_runtime.estimation.regressors import LinearisationPoint, group_by_effect
 from ragg_runtime.estimation.spectrum import (
     LOWEST,
     ProjectedResidual,
@@ -111,6 +112,7 @@ def estimate_noise(
     noise = replace(noise, combinations=apart, lines=_list_lines(parts, o, level))
     if level.parts:
         noise = _choose_form(at, o, noise, chosen)
+    noise = _prefer_drift(at, o, noise, chosen)
     events = [d.later(p.rows.start / o.record.rate) for p in parts for x in p.outputs for d in x.events]
     texts = describe_disturbances(events), describe_level(level)
     words = "; ".join(w for w in texts if w is not None) or None
@@ -389,6 +391,31 @@ def _fit_drifts(
     each = zip(noise.drifts, noise.spectra, strict=True)
     spectra = [replace(s, log_psd=np.log(d.psd(np.exp(s.log_f), s.rate))) for d, s in each]
     return replace(noise, spectra=tuple(spectra))
+
+
+def _prefer_drift(
+    at: LinearisationPoint, o: Observation, noise: NoiseModel, chosen: Sequence[slice]
+) -> NoiseModel:
+    """White noise upon a drift where the base alone is likelier beside it than with any effect beside the noise as it is.
+
+    Many candidates take a drift whole: of their residual nothing tells that it is there, and one of them would be claimed.
+    """
+    alone = replace(at, candidates=())
+    drifting = _fit_drifts(alone, o, noise, chosen)
+    with_drift, without = (_compute_evidence(alone, o, n, chosen)[0] for n in (drifting, noise))
+    gain = with_drift - without
+    return drifting if gain > PLAIN and gain > _weigh_best_effect(at, o, noise, chosen) else noise
+
+
+def _weigh_best_effect(
+    at: LinearisationPoint, o: Observation, noise: NoiseModel, chosen: Sequence[slice]
+) -> float:
+    """Log evidence of the effect that best explains what the base leaves, which stays within its priors. A drift is as probable as any."""
+    n, effects = len(at.base), group_by_effect(at.candidates)
+    T = add_prior(join(list(pass_over(at, o, noise, Piece.r_factor, chosen=chosen))), range(n))
+    left = T[n:, n:]
+    floor = np.maximum(TESTABLE, COLLINEAR * np.linalg.norm(T[:, n:], axis=0))
+    return max((test(left, columns, floor).log_b for columns in effects.values()), default=0.0)
 
 
 # scales of a column within which its coefficient is expected where noises are compared: none is known

@@ -3,8 +3,8 @@
 The data that flows, and where each step of the textbook is:
 
 - a fit of the model, with R factors of base, candidates and residual (``estimation.fitted.Fitted``);
-- ``selection.ProjectedProblem``: the candidates beside the projected base; ``likelihood_ratio``: the tests and the log evidence of each,
-  their number of independent ones, their variance in uneven noise; ``selection``: forward selection among sets; ``steps``: change points;
+- ``selection.ProjectedProblem``: the candidates beside the projected base, with their tests (``estimation.likelihood_ratio``);
+  ``selection``: forward selection among sets; ``steps``: change points;
 - ``strong.Stage``, ``strong.AddedEffect``: nonlinear forward selection, an effect after the other derived into the model;
   ``search.Evidence``: all that was selected, and ``search.Outcome``: fitted together, with what it leaves;
 - ``omnibus.Remainder``: lack of fit, by orthogonal matching pursuit over the generic terms of ``dictionary``; ``time_varying``: terms that

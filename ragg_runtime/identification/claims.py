@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 from scipy.special import fdtri
 
 from ragg_runtime.estimation.fitted import FITTED_BLOCKS, Fitted
+from ragg_runtime.estimation.likelihood_ratio import TESTABLE, weigh
 from ragg_runtime.estimation.scores import log_sf, log_sf_f
-from ragg_runtime.identification.likelihood_ratio import TESTABLE, weigh
 from ragg_runtime.identification.omnibus import Omnibus, Remainder
 from ragg_runtime.identification.parameters import list_bounded_columns
 

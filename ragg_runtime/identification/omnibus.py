@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from ragg_runtime.base import false_alarms
 from ragg_runtime.estimation import unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.likelihood_ratio import Scatter, Test, sum_variances, test_variance
 from ragg_runtime.estimation.noise_estimate import compute_line_width
 from ragg_runtime.estimation.regressors import predict_observed
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector
 from ragg_runtime.identification.dictionary import Dictionary, Term, find_term_unit, whiten_terms
-from ragg_runtime.identification.likelihood_ratio import Scatter, Test, sum_variances, test_variance
 from ragg_runtime.identification.time_varying import BlockScores, Periodogram
 
 Array = NDArray[np.float64]

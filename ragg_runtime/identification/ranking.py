@@ -10,11 +10,10 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation import unknown_gradient
+from ragg_runtime.estimation import likelihood_ratio, unknown_gradient
 from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.likelihood_ratio import Test
 from ragg_runtime.estimation.scores import Error, finite
-from ragg_runtime.identification import likelihood_ratio
-from ragg_runtime.identification.likelihood_ratio import Test
 from ragg_runtime.identification.parameters import Estimates, ParameterValue
 from ragg_runtime.identification.selection import ProjectedProblem
 from ragg_runtime.identification.strong import AddedEffect, Stage

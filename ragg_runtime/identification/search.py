@@ -13,11 +13,11 @@ from ragg_runtime.estimation import calibration, regressors
 from ragg_runtime.estimation import fitted as fitted_
 from ragg_runtime.estimation.calibration import measure_deviance
 from ragg_runtime.estimation.fitted import Fitted, Scored, calibrate, fit
+from ragg_runtime.estimation.likelihood_ratio import Test, weigh
 from ragg_runtime.estimation.regressors import group_by_effect
 from ragg_runtime.identification import comparison, omnibus, selection, strong
 from ragg_runtime.identification.claims import Regression
 from ragg_runtime.identification.comparison import Explained, measure_explained
-from ragg_runtime.identification.likelihood_ratio import Test, weigh
 from ragg_runtime.identification.omnibus import Remainder
 from ragg_runtime.identification.strong import AddedEffect, Extend, Stage
 from ragg_runtime.instrument.instrument import Instrument

@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
+from ragg_runtime.estimation import likelihood_ratio
 from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.likelihood_ratio import Test, list_ways, log_bayes, weigh
 from ragg_runtime.estimation.observation import BLOCKS
 from ragg_runtime.estimation.regressors import Column, group_by_effect
 from ragg_runtime.estimation.scores import DISTINGUISHABLE, INDISTINGUISHABLE
 from ragg_runtime.estimation.whitening import PreparedFlight
-from ragg_runtime.identification import likelihood_ratio
-from ragg_runtime.identification.likelihood_ratio import Test, list_ways, log_bayes, weigh
 
 Array = NDArray[np.float64]
 

@@ -11,14 +11,14 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.estimation import unknown_gradient, whitening
+from ragg_runtime.estimation import likelihood_ratio, unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.least_squares import compute_r_factor, fold, join, make_prior, pick_columns
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import BLOCKS, ROWS
 from ragg_runtime.estimation.regressors import Column, group_by_effect
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight
-from ragg_runtime.identification import likelihood_ratio, selection
+from ragg_runtime.identification import selection
 from ragg_runtime.identification.selection import ProjectedProblem, list_testable, make_problem
 
 Array = NDArray[np.float64]

@@ -13,7 +13,7 @@ from typing import Protocol
 import numpy as np
 from scipy.special import comb
 
-from ragg_runtime.estimation import calibration
+from ragg_runtime.estimation import calibration, likelihood_ratio
 from ragg_runtime.estimation.calibration import QUIET, measure_deviance, measure_to_nominal, restore_priors
 from ragg_runtime.estimation.fitted import (
     Fitted,
@@ -24,10 +24,10 @@ from ragg_runtime.estimation.fitted import (
     release_held,
 )
 from ragg_runtime.estimation.least_squares import compute_r_factor
+from ragg_runtime.estimation.likelihood_ratio import Test, weigh
 from ragg_runtime.estimation.observation import spread
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE
-from ragg_runtime.identification import likelihood_ratio, selection
-from ragg_runtime.identification.likelihood_ratio import Test, weigh
+from ragg_runtime.identification import selection
 from ragg_runtime.identification.parameters import list_bounded_columns
 from ragg_runtime.identification.selection import Blocks, ProjectedProblem
 from ragg_runtime.identification.steps import add_steps

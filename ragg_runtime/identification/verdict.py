@@ -9,10 +9,10 @@ from functools import partial
 import numpy as np
 from scipy.special import expit
 
+from ragg_runtime.estimation.likelihood_ratio import Test, weigh
 from ragg_runtime.estimation.scores import DISTINGUISHABLE
 from ragg_runtime.identification import claims, comparison, omnibus, selection, strong
 from ragg_runtime.identification.claims import Significance
-from ragg_runtime.identification.likelihood_ratio import Test, weigh
 from ragg_runtime.identification.line_rival import LineAlternative, Steady, find_line_rival
 from ragg_runtime.identification.omnibus import Remainder, ResidualTerm
 from ragg_runtime.identification.result import Reason, name_verdict

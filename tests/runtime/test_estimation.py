@@ -185,8 +185,7 @@ def test_tails_beyond_all_floats_are_known(ratio: float, d1: float, d2: float) -
 
 # --- of flights ---
 
-SIZE = 4.0 * 1.6e-3
-"""V: four times the noise of a flight."""
+SIZE = 4.0 * 1.6e-3  # V: four times the noise of a flight
 
 
 def calibrated(
@@ -203,17 +202,19 @@ def test_where_all_samples_weigh_the_same_lines_are_noise() -> None:
     """Held against the floor alone, a fit down to the noise passed for one that lacks an effect, and a sheet that was off
     could not be widened: effects that are none took up what its parameters were held from.
     """
-    line = lambda x: np.sqrt(2.0) * SIZE * np.sin(2 * np.pi * 5.1 * x.time)  # noqa: E731
-    c = calibrated(line, 200.0, unweighted=True)
+    c = calibrated(lambda x: np.sqrt(2.0) * SIZE * np.sin(2 * np.pi * 5.1 * x.time), 200.0, unweighted=True)
     assert c.noise[0].lines
     assert c.noise[0].spectra[0].rms < 0.6 * SIZE
     assert c.excess == pytest.approx(1.0, abs=0.15)
 
 
-def test_a_walk_that_is_slower_than_the_record_is_noise() -> None:
-    """Most of its rms is of periods that no spectrum of the record shows: it is no reason to weigh all samples alike."""
-    c = calibrated(lambda x: 0.04 * SIZE * np.cumsum(np.random.default_rng(1).normal(size=len(x))), 320.0)
+@pytest.mark.parametrize("size", [0.04 * SIZE, 0.002 * SIZE])
+def test_a_walk_that_is_slower_than_the_record_is_noise(size: float) -> None:
+    """Most of its rms is of periods that no spectrum of the record shows; a weak one the columns of candidates take whole."""
+    c = calibrated(lambda x: size * np.cumsum(np.random.default_rng(1).normal(size=len(x))), 320.0)
     assert c.excess == pytest.approx(1.0, abs=0.1)
+    density = 2 / RATE * ((SIZE / 4) ** 2 + (size * RATE * 320 / (2 * np.pi)) ** 2)
+    assert c.noise[0].spectra[0].psd(np.array([1 / 320])) == pytest.approx(density, rel=0.5)
 
 
 @pytest.mark.parametrize("drifts", [True, False])
@@ -225,9 +226,8 @@ def test_white_noise_that_swells_upon_a_drift_is_told_from_other_noise_that_does
         level = 0.2 + size / np.sqrt(np.mean(size**2))
         white, other = 0.1 * np.random.default_rng(2).normal(size=(2, len(flight)))
         drift = signal.lfilter([0.15], [1.0, -0.98], other)
-        return np.asarray(
-            level * white + drift if drifts else level * signal.lfilter([1.0, -0.6], 1.0, white)
-        )
+        blue = signal.lfilter([1.0, -0.6], 1.0, white)
+        return np.asarray(level * white + drift if drifts else level * blue)
 
     (noise,) = calibrated(loud, 200.0).noise
     assert [p.name for p in noise.level.parts] == ["abs(a_x)"]

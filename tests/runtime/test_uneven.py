@@ -13,13 +13,13 @@ from scipy import stats
 from scipy.integrate import trapezoid
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.estimation import fitted
+from ragg_runtime.estimation import fitted, likelihood_ratio
+from ragg_runtime.estimation.likelihood_ratio import STRENGTHS
 from ragg_runtime.estimation.observation import observe_flights
 from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.estimation.scores import Error
-from ragg_runtime.identification import likelihood_ratio, selection
+from ragg_runtime.identification import selection
 from ragg_runtime.identification.consistency import find_change, log_e
-from ragg_runtime.identification.likelihood_ratio import STRENGTHS
 from ragg_runtime.identification.ranking import HELD, Probabilities, Ranked, add_probability, weigh_effects
 from ragg_runtime.identification.selection import ProjectedProblem
 from ragg_runtime.model.model import load_packaged
