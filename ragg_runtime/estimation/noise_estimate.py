@@ -110,9 +110,10 @@ def estimate_noise(
         parts = _fit_segments(at, o, apart, chosen, level)
         noise = _estimate_spectra(parts, o, level, means)
     noise = replace(noise, combinations=apart, lines=_list_lines(parts, o, level))
-    if level.parts:
-        noise = _choose_form(at, o, noise, chosen)
-    noise = _prefer_drift(at, o, noise, chosen)
+    if not o.smoothed:  # what is left of sensors' noise in the band of the motion is not white
+        if level.parts:
+            noise = _choose_form(at, o, noise, chosen)
+        noise = _prefer_drift(at, o, noise, chosen)
     events = [d.later(p.rows.start / o.record.rate) for p in parts for x in p.outputs for d in x.events]
     texts = describe_disturbances(events), describe_level(level)
     words = "; ".join(w for w in texts if w is not None) or None

@@ -201,18 +201,21 @@ def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect() -> None:
     def having(**channels: Any) -> Any:
         return replace(x, channels={**x.channels, **channels})
 
-    coarse = screen(model, s.sheet, having(**{n: np.round(x.channels[n] / STEP) * STEP for n in force}))
+    steps = {n: np.round(x.channels[n] / STEP) * STEP for n in force}
+    coarse, one = screen(model, s.sheet, having(**steps)), screen(model, s.sheet, having(a_x=steps["a_x"]))
     noisy = having(**{n: x.channels[n] + 1e-3 * rng.standard_normal(len(x)) for n in force})
     still = screen(model, s.sheet, having(a_x=np.full(len(x), float(np.mean(x.channels["a_x"])))))
     for flight, words in (
         (coarse, "in steps of"),
+        (one, "in steps of"),
         (screen(model, s.sheet, noisy), "have a noise floor of"),
         (still, "a_x does not change at all"),
     ):
         assert any(words in note for note in flight.notes)
-    d = diagnose(model, s.sheet, [coarse])
-    assert (d.verdict, d.found, d.remark) == ("adequate", (), None)  # what steps leave is as loud throughout
-    assert d.noise_floor == pytest.approx(d.before.rms_Eo, rel=0.1)
+    for flight in (one, coarse):  # what steps leave follows the angle of the disc, or is as loud throughout
+        d = diagnose(model, s.sheet, [flight])
+        assert (d.verdict, d.found, d.remark) == ("adequate", (), None)
+        assert d.noise_floor == pytest.approx(d.before.rms_Eo, rel=0.1)
 
     def heeded(flight: Any, **instead: Any) -> Diagnosis:
         return heed_flags(replace(d, **instead), [flight])
@@ -235,9 +238,8 @@ def test_what_is_odd_about_the_motion_is_the_reason_and_not_an_effect() -> None:
         assert (h.found, "may look like a drift" in str(h.reason)) == (("gain-drift",), said)
     h = heeded(remarked(**{n: np.full(len(x), np.mean(v)) for n, v in x.channels.items()}), reasons=())
     assert (h.verdict, h.reason) == ("adequate", AT_REST)
-    h = heeded(
-        remarked(a_z=np.full(len(x), 9.8)), reasons=(Reason("the noise level changes over the record"),)
-    )
+    louder = (Reason("the noise level changes over the record"),)
+    h = heeded(remarked(a_z=np.full(len(x), 9.8)), reasons=louder)
     assert h.verdict == "unexplained"
     assert str(h.reason).startswith("a_z does not change at all")
 
@@ -280,9 +282,7 @@ NO_END = {
     "at rest": np.full(SAMPLES, 9.8),
     "coarsely quantised": np.round(MOVING * 8) / 8,
     "slow, so that it dwells at its largest values": np.round(np.sin(0.3 * TIME) * 100) / 100,
-    "20 steps": np.r_[
-        np.round(20 * np.sin(0.02 * TIME[:600])), np.round(20 * MOVING[600:]).clip(-18, 18)
-    ],
+    "20 steps": np.r_[np.round(20 * np.sin(0.02 * TIME[:600])), np.round(20 * MOVING[600:]).clip(-18, 18)],
     "repeats itself, sample by sample": np.sin(2 * np.pi * TIME / 16),
 }  # fmt: skip
 
