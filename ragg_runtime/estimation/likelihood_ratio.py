@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import count
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
+from ragg_runtime.estimation.least_squares import fold, make_prior, pick_columns
 from ragg_runtime.estimation.noise import score_excess
+from ragg_runtime.estimation.observation import BLOCKS
 from ragg_runtime.estimation.regressors import Column
 from ragg_runtime.estimation.scores import log_sf
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight
@@ -138,6 +141,37 @@ def test(
     return Test(
         float(chi2[k]), int(rank[k]), log_p, tuple(places[n] for n in ways[k].which), float(evidence[k])
     )
+
+
+def find_best_edges(
+    r_factors: Sequence[Sequence[Array]], centre: Array, columns: Mapping[str, Sequence[tuple[int, Column]]]
+) -> dict[str, tuple[Test, int]]:
+    """For each step the test of its columns from the edge between two segments of time on from which it explains most, and which edge.
+
+    ``r_factors``: of every output one of each segment; ``centre`` (k,): of the base's priors.
+    """
+    k, pairs = len(centre), [c for each in columns.values() for c in each]
+    m, others = len(pairs), [*(k + n for n, _ in pairs), -1]
+    picked = [fold([pick_columns(t, k, others) for t in each]) for each in zip(*r_factors, strict=True)]
+    # The segments after an edge count with the steps' columns, those before it without; the prior in them.
+    after: list[Array] = [np.pad(make_prior(range(k), k + m + 1, centre), ((0, m + 1), (0, 0)))]
+    for t in reversed(picked[1:]):
+        after.append(fold([after[-1], t]))
+    before = np.zeros((k + m + 1, k + m + 1))
+    place = count()
+    named = {e: [(next(place), c) for _, c in each] for e, each in columns.items()}
+    floor = np.full(m + 1, TESTABLE)
+    best: dict[str, tuple[Test, int]] = {}
+    for n in range(len(picked) - 1):
+        off = picked[n].copy()
+        off[:, k : k + m] = 0.0
+        before = fold([before, off])
+        P = fold([before, after[len(picked) - 1 - n]])[k:, k:]
+        for e, each in named.items():
+            one = test(P, each, floor, float(np.log(2 * BLOCKS)))
+            if e not in best or one.log_p < best[e][0].log_p:
+                best[e] = one, n
+    return best
 
 
 # records of noise that tell how many independent tests the catalogue is: at a level of 0.03 thirty of them err, a fifth either way

@@ -14,7 +14,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.drifting_noise import DriftingNoise
 from ragg_runtime.estimation.least_squares import add_prior, join
-from ragg_runtime.estimation.likelihood_ratio import COLLINEAR, TESTABLE, test
+from ragg_runtime.estimation.likelihood_ratio import COLLINEAR, TESTABLE, find_best_edges, test
 from ragg_runtime.estimation.noise import (
     Level,
     NoiseModel,
@@ -24,7 +24,13 @@ from ragg_runtime.estimation.noise import (
     estimate_level,
     level_quantities,
 )
-from ragg_runtime.estimation.observation import ROWS, Observation, measure_information_per_sample, spread
+from ragg_runtime.estimation.observation import (
+    ROWS,
+    Observation,
+    measure_information_per_sample,
+    split_at_blocks,
+    spread,
+)
 from ragg_runtime.estimation.regressors import LinearisationPoint, group_by_effect
 from ragg_runtime.estimation.spectrum import (
     LOWEST,
@@ -50,7 +56,7 @@ TAPS = 24576
 NOISE_SEGMENTS = 8
 # times that what columns and gaps have taken of noise that is not white is computed anew, with the spectrum that it led to
 AGAIN = 3
-RED = 1.5  # density at the lowest frequencies over that in the middle from which that is done for columns
+RED = 1.5  # density at the lowest frequencies over that in the middle from which noise is red, and that is done for columns
 # series of noise that show what gaps take: of a third of a single frequency's power that is missing they tell a tenth
 DRAWS, NEIGHBOURS = 16, 9
 SHORTEST = 128  # least number of samples of which noise can be estimated
@@ -401,6 +407,8 @@ def _prefer_drift(
 
     Many candidates take a drift whole: of their residual nothing tells that it is there, and one of them would be claimed.
     """
+    if any(s.red > RED for s in noise.spectra):
+        return noise  # they have not
     alone = replace(at, candidates=())
     drifting = _fit_drifts(alone, o, noise, chosen)
     with_drift, without = (_compute_evidence(alone, o, n, chosen)[0] for n in (drifting, noise))
@@ -412,11 +420,20 @@ def _weigh_best_effect(
     at: LinearisationPoint, o: Observation, noise: NoiseModel, chosen: Sequence[slice]
 ) -> float:
     """Log evidence of the effect that best explains what the base leaves, which stays within its priors. A drift is as probable as any."""
-    n, effects = len(at.base), group_by_effect(at.candidates)
-    T = add_prior(join(list(pass_over(at, o, noise, Piece.r_factor, chosen=chosen))), range(n))
+    n, effects, samples = len(at.base), group_by_effect(at.candidates), len(o.record.time)
+
+    def factor(piece: Piece) -> list[Array]:
+        return [piece.r_factor(x.start, x.stop) for _, x in split_at_blocks(piece.rows, samples)]
+
+    blocks = [T for each in pass_over(at, o, noise, factor, chosen=chosen) for T in each]
+    T = add_prior(join(blocks), range(n))
     left = T[n:, n:]
     floor = np.maximum(TESTABLE, COLLINEAR * np.linalg.norm(T[:, n:], axis=0))
-    return max((test(left, columns, floor).log_b for columns in effects.values()), default=0.0)
+    tests = [test(left, columns, floor) for columns in effects.values()]
+    unplaced = {e.id for e in at.model.candidates if e.kind == "step"} - at.instants.keys()
+    steps = {e: columns for e, columns in effects.items() if e in unplaced}
+    tests += [t for t, _ in find_best_edges([blocks], np.zeros(n), steps).values()]
+    return max((t.log_b for t in tests), default=0.0)
 
 
 # scales of a column within which its coefficient is expected where noises are compared: none is known

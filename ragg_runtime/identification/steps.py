@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import count
 from types import MappingProxyType
 
 import numpy as np
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.estimation import likelihood_ratio, unknown_gradient, whitening
 from ragg_runtime.estimation.fitted import Fitted, fit
-from ragg_runtime.estimation.least_squares import compute_r_factor, fold, join, make_prior, pick_columns
+from ragg_runtime.estimation.least_squares import compute_r_factor, join
 from ragg_runtime.estimation.noise_estimate import estimate_noise
 from ragg_runtime.estimation.observation import BLOCKS, ROWS
 from ragg_runtime.estimation.regressors import Column, group_by_effect
@@ -47,7 +46,9 @@ def add_steps(
         r_factors, sums = zip(*(whitening.factor_blocks(x) for x in prepared), strict=True)
         f = replace(f, prepared=prepared, r_factors=r_factors, sums=sums)
     edges = [int(k) for k in f.prepared[0].edges[1:-1]]
-    likeliest = _find_best_edges(f, f.r_factors, edges, {e: c for e, c in columns.items() if e not in starts})
+    unplaced = {e: c for e, c in columns.items() if e not in starts}
+    best = likelihood_ratio.find_best_edges(f.r_factors, f.to_nominal, unplaced)
+    likeliest = {e: edges[n] for e, (_, n) in best.items()}
     begun = _zero_before(f, likeliest, columns)
     problem = make_problem(begun, [*available, *columns])
     # samples do not judge a step yet: one that is in the noise makes it uneven
@@ -82,34 +83,6 @@ def _zero_before(f: Fitted, steps: Steps, columns: Columns) -> Fitted:
     return replace(f, r_factors=r_factors, sums=sums)
 
 
-def _find_best_edges(
-    f: Fitted, r_factors: Sequence[Sequence[Array]], edges: Sequence[int], columns: Columns
-) -> dict[str, int]:
-    """For each step the edge between two segments of time, each with an R factor of every output, from which on it explains most."""
-    k, pairs = f.n_base, [c for each in columns.values() for c in each]
-    m, others = len(pairs), [*(k + n for n, _ in pairs), -1]
-    picked = [fold([pick_columns(t, k, others) for t in each]) for each in zip(*r_factors, strict=True)]
-    # The segments after an edge count with the steps' columns, those before it without; the prior in them.
-    after: list[Array] = [np.pad(make_prior(range(k), k + m + 1, f.to_nominal), ((0, m + 1), (0, 0)))]
-    for t in reversed(picked[1:]):
-        after.append(fold([after[-1], t]))
-    before = np.zeros((k + m + 1, k + m + 1))
-    place = count()
-    named = {e: [(next(place), c) for _, c in each] for e, each in columns.items()}
-    floor = np.full(m + 1, likelihood_ratio.TESTABLE)
-    best: dict[str, tuple[float, int]] = {}
-    for n, edge in enumerate(edges):
-        off = picked[n].copy()
-        off[:, k : k + m] = 0.0
-        before = fold([before, off])
-        P = fold([before, after[len(edges) - n]])[k:, k:]
-        for e, each in named.items():
-            log_p = likelihood_ratio.test(P, each, floor, float(np.log(2 * BLOCKS))).log_p
-            if e not in best or log_p < best[e][0]:
-                best[e] = log_p, edge
-    return {e: edge for e, (_, edge) in best.items()}
-
-
 # segments into which the neighbourhood of a step is divided in each round that looks for its instant
 FINE = 192
 
@@ -136,7 +109,7 @@ def _refine(f: Fitted, sample: int, columns: Sequence[tuple[int, Column]]) -> in
             for parts in x.each(partial(cut, rows=rows)):
                 for k, T in parts:
                     r_factors[k] = join([r_factors[k], T])
-        sample = _find_best_edges(f, [r_factors], edges.tolist(), moved)[""]
+        sample = int(edges[likelihood_ratio.find_best_edges([r_factors], f.to_nominal, moved)[""][1]])
         reach = int(np.max(np.diff(edges), initial=1))
     return sample
 
