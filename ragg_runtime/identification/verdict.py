@@ -201,6 +201,8 @@ def _measure_log_p(evidence: Evidence, o: Outcome, effect: str) -> float:
         linear = _compare_with_strongest(o, s, s.log_p(log_p, doubted=o.remainder.significant))
         if _is_significant(evidence, o, linear):
             return linear
+    if evidence.spent:  # no fit is left for it
+        return linear
     by_fit = replace(s, chi2=max(0.0, evidence.gain(o, effect)))
     return min(linear, _compare_with_strongest(o, by_fit, by_fit.log_p(None, doubted=True)))
 
