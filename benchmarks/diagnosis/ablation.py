@@ -79,7 +79,7 @@ RULES = (
          "quiet ramp, quiet along-axes, quiet with-ax, quiet with-size, quiet cyclic, ten along-axes, ten ramp",
          {"estimation.noise_estimate._choose_level": lambda *a: Level()}),
     Rule("drift", "noise may be white noise, of a level that changes or not, upon a random walk",
-         "quiet walk, quiet walk-and-heave, ten with-ax", {"estimation.noise_estimate._fit_drifts": lambda a, o, n, x: n}),
+         "quiet walk, quiet walk-and-heave, ten with-ax", {"estimation.noise_estimate._fit_drifts": lambda a, o, n, x: (n, 0.0)}),
     Rule("uneven", "where the level changes, tests are tempered by the variance of their scores",
          "quiet red-along-axes, quiet size-and-temperature, quiet heavy-with-size, quiet amplifier, ten along-axes, five with-size",
          {"estimation.likelihood_ratio.temper_test": _first,

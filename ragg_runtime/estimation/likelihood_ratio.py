@@ -26,6 +26,11 @@ TESTABLE = 0.3
 COLLINEAR = 1e-6
 
 
+def find_floor(norms: Array) -> Array:
+    """(n,): the norms after projection below which columns with these norms before it are not testable."""
+    return np.maximum(TESTABLE, COLLINEAR * norms)
+
+
 # prior variance of an effect over that of the noise, g: from what hides in the noise to 1e4 times its standard deviation
 STRENGTHS = np.logspace(0.0, 8.0, 17)
 

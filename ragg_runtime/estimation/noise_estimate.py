@@ -14,7 +14,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.drifting_noise import DriftingNoise
 from ragg_runtime.estimation.least_squares import add_prior, join
-from ragg_runtime.estimation.likelihood_ratio import COLLINEAR, TESTABLE, find_best_edges, test
+from ragg_runtime.estimation.likelihood_ratio import find_best_edges, find_floor, test
 from ragg_runtime.estimation.noise import (
     Level,
     NoiseModel,
@@ -355,7 +355,8 @@ def _choose_level(parts: Sequence[_Part], o: Observation, noise: NoiseModel) -> 
     return estimate_level(join(z), quantities, alternatives)
 
 
-# logarithm of how much likelier a level of all noise must be than one of the white noise upon a drift
+# logarithm of how much likelier a level of all noise must be than one of the white noise upon a drift, and a drift beneath white noise
+# than noise without one
 PLAIN = 3.0
 
 
@@ -363,15 +364,15 @@ def _choose_form(
     at: LinearisationPoint, o: Observation, noise: NoiseModel, chosen: Sequence[slice]
 ) -> NoiseModel:
     """What a level multiplies: all of the noise, or the white noise upon a drift."""
-    drifting = _fit_drifts(at, o, noise, chosen)
-    all_of_it, white = (_compute_evidence(at, o, n, chosen)[0] for n in (noise, drifting))
-    return noise if all_of_it > white + PLAIN else drifting
+    drifting, gain = _fit_drifts(at, o, noise, chosen)
+    return drifting if gain >= -PLAIN else noise
 
 
 def _fit_drifts(
     at: LinearisationPoint, o: Observation, noise: NoiseModel, chosen: Sequence[slice]
-) -> NoiseModel:
-    """Random walks beneath the white noise of the level, as strong as is likeliest.
+) -> tuple[NoiseModel, float]:
+    """Random walks beneath the white noise of the level, as strong as is likeliest, and the log evidence by which they are likelier than
+    a noise.
 
     Columns take most of what is slow: how strong it is the spectrum of their residual does not tell, but their evidence does.
     """
@@ -394,10 +395,12 @@ def _fit_drifts(
         options={"xatol": 0.5},
     )
     log_ratio = float(best.x)
-    noise = make(log_ratio, _compute_evidence(at, o, make(log_ratio), chosen)[1])
-    each = zip(noise.drifts, noise.spectra, strict=True)
+    evidence, variance = _compute_evidence(at, o, make(log_ratio), chosen)
+    gain = evidence - _compute_evidence(at, o, noise, chosen)[0]
+    drifting = make(log_ratio, variance)
+    each = zip(drifting.drifts, drifting.spectra, strict=True)
     spectra = [replace(s, log_psd=np.log(d.psd(np.exp(s.log_f), s.rate))) for d, s in each]
-    return replace(noise, spectra=tuple(spectra))
+    return replace(drifting, spectra=tuple(spectra)), gain
 
 
 def _prefer_drift(
@@ -410,9 +413,7 @@ def _prefer_drift(
     if any(s.red > RED for s in noise.spectra):
         return noise  # they have not
     alone = replace(at, candidates=())
-    drifting = _fit_drifts(alone, o, noise, chosen)
-    with_drift, without = (_compute_evidence(alone, o, n, chosen)[0] for n in (drifting, noise))
-    gain = with_drift - without
+    drifting, gain = _fit_drifts(alone, o, noise, chosen)
     return drifting if gain > PLAIN and gain > _weigh_best_effect(at, o, noise, chosen) else noise
 
 
@@ -428,10 +429,10 @@ def _weigh_best_effect(
     blocks = [T for each in pass_over(at, o, noise, factor, chosen=chosen) for T in each]
     T = add_prior(join(blocks), range(n))
     left = T[n:, n:]
-    floor = np.maximum(TESTABLE, COLLINEAR * np.linalg.norm(T[:, n:], axis=0))
-    tests = [test(left, columns, floor) for columns in effects.values()]
+    floor = find_floor(np.linalg.norm(T[:, n:], axis=0))
     unplaced = {e.id for e in at.model.candidates if e.kind == "step"} - at.instants.keys()
-    steps = {e: columns for e, columns in effects.items() if e in unplaced}
+    steps = {e: effects.pop(e) for e in [*effects] if e in unplaced}
+    tests = [test(left, columns, floor) for columns in effects.values()]
     tests += [t for t, _ in find_best_edges([blocks], np.zeros(n), steps).values()]
     return max((t.log_b for t in tests), default=0.0)
 

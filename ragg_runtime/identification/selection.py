@@ -74,7 +74,7 @@ class ProjectedProblem:
 
     @property
     def floor(self) -> Array:
-        return np.maximum(likelihood_ratio.TESTABLE, likelihood_ratio.COLLINEAR * self.norms)
+        return likelihood_ratio.find_floor(self.norms)
 
     def testable(self, effect: str) -> list[int]:
         """Columns of an effect that keep enough after projection to be tested."""

@@ -145,7 +145,7 @@ def _sharpen(f: Fitted, sample: int, columns: Sequence[tuple[int, Column]]) -> i
         )
         whole = np.linalg.norm(X, axis=1)
         X = X - (X @ Q) @ Q.T
-        seen = np.linalg.norm(X, axis=1) > np.maximum(likelihood_ratio.TESTABLE, 1e-6 * whole)
+        seen = np.linalg.norm(X, axis=1) > likelihood_ratio.find_floor(whole)
         if not seen.any():
             return 0.0
         U, s, _ = np.linalg.svd(X[seen].T, full_matrices=False)

@@ -199,8 +199,9 @@ def _propose_losses(s: Sampler) -> list[Hypothesis]:
 def propose_parts(s: Sampler) -> list[Hypothesis]:
     """Another record lies between two instants: the model leaves more of it than effects would, and explains the rest without it."""
     rows, n = s.rows(most=PART_ROWS), len(s.flight)
-    X, y = linearise(s.take(rows))
-    size = s.fit(rows).size
+    sample = s.take(rows)
+    X, y = linearise(sample)
+    size = fit_rows(sample).size
     best, other, residual = np.inf, np.zeros(len(rows), dtype=np.bool_), y
     for known in np.array_split(np.arange(len(rows)), 3):  # one of them is of one record, at least
         for _ in range(ROUNDS):
