@@ -4,22 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from generated import folded
-from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.demodulation import OURS, Demodulation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Layout, Output, Vector3, gain
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import DEMODULATED, RATES, SPECIFIC_FORCE
 from ragg_runtime.model.chain import Chain
-from ragg_runtime.signals import demodulators
-from ragg_runtime.signals.demodulators import CUTOFF, Demodulator
+from ragg_runtime.signals.demodulators import Demodulator, find_demodulator
 from ragg_runtime.signals.derivative import (
     DEGREES,
     choose_degree,
@@ -82,7 +80,8 @@ class Record:
     @cached_property
     def low_pass(self) -> Demodulator:
         """The low-pass of inline and cross."""
-        return make_kernel(self.demodulation, self.rate)
+        d = self.demodulation
+        return find_demodulator(d.kind, self.rate, d.cutoff, d.order)
 
     @property
     def recorded(self) -> frozenset[str]:
@@ -350,37 +349,6 @@ def strip_derivative(name: str) -> str:
 def take_quantities(r: Record, rows: slice) -> Callable[[str], Array]:
     """:meth:`Record.quantity` of some samples, which are copied only if one is asked for."""
     return lambda name: r.part(rows).quantity(name)
-
-
-# how far the rate at which channels were made may be from a multiple of the record's, relatively: clocks are that good
-UNEVEN = 1e-3
-
-
-@cache
-def make_kernel(d: Demodulation, rate: float) -> Demodulator:
-    """Of a record at ``rate``, Hz; where the channels were made at a higher rate, thinned out as they were."""
-    factor = 1 if d.rate is None else round(d.rate / rate)
-    if d.rate is not None and (factor < 1 or abs(d.rate / (factor * rate) - 1) > UNEVEN):
-        raise UserError(
-            "the demodulator's rate is not a multiple of the record's",
-            where="[demodulator] rate",
-            found=f"{d.rate:.6g} Hz, the record at {rate:.6g} Hz",
-            expected="the rate at which the channels were made, of which the record keeps every second, third ... sample",
-        )
-    demodulator = _make_demodulator(d, rate * factor)
-    demodulator = demodulator.thin(factor) if factor > 1 else demodulator
-    return demodulator.delay_by(d.delay) if d.delay else demodulator
-
-
-def _make_demodulator(d: Demodulation, rate: float) -> Demodulator:
-    if d.kind == "none":
-        return Demodulator("none", rate, np.ones(1), 0)  # every value is of its own instant
-    if d.kind == "fir" or (d.cutoff is None and d.length is None):
-        return demodulators.fir(rate, CUTOFF if d.cutoff is None else d.cutoff)
-    if d.length is not None:
-        return demodulators.average(rate, d.length, centred=d.kind == "average")
-    build = demodulators.butterworth if d.kind == "butterworth" else demodulators.causal
-    return build(rate, d.order or demodulators.ORDER, d.cutoff or demodulators.CORNER)
 
 
 @dataclass(frozen=True)

@@ -297,49 +297,27 @@ def _turn(rows: Rows, group: tuple[str, ...], order: tuple[int, ...], signs: tup
 
 # --- channels that another demodulator has made ---------------------------------------------------------
 
-LOWEST, HIGHEST = 0.02, 0.35
-"""Hz: corners of low-passes that are looked for; ``FEW_CORNERS`` are tried first of a Butterworth filter, ``MANY`` of a moving average,
-which lets through what its length makes of the harmonics of the spin: at 10 s it must be right to a tenth. The best is then refined."""
-
-FEW_CORNERS, MANY = 6, 60
-
+LOWEST, HIGHEST, CORNERS = 0.02, 0.35, 6  # Hz: corners that are looked for, of which so many are tried first
 FINE = 1e-3  # relative precision of a corner
 ORDERS = (1, 2, 3, 4, 6, 8)  # of Butterworth filters, causal, or in each direction
-FLAT = 0.443  # half-power frequency of a moving average times its length
-CLEARLY = 1.1  # factor by which less must be left than without any low-pass
 
 
 def _propose_demodulator(s: Sampler) -> Hypothesis:
-    """The low-pass, of those that people use, with which the model leaves least of inline and cross."""
-    rows, rate = s.take(), s.flight.rate
+    """The Butterworth low-pass with which the model leaves least of inline and cross."""
+    rows = s.take()
 
     def fit(d: Demodulation) -> LinearFit:
         return fit_rows(replace(rows, record=replace(rows.record, demodulation=d)))
 
-    def find_corner(low_pass: Callable[[float], Demodulation], corners: int) -> Demodulation:
-        grid = np.linspace(np.log(LOWEST), np.log(min(HIGHEST, rate / 4)), corners)
-        return low_pass(float(np.exp(find_least(lambda x: fit(low_pass(np.exp(x))).share, grid, FINE))))
+    def find_corner(kind: str, order: int) -> Demodulation:
+        def leave(x: float) -> float:
+            return fit(Demodulation(kind, float(np.exp(x)), order)).share
 
-    none = Demodulation(kind="none")
-    low_passes = starmap(find_corner, list_low_passes()) if rate / 4 > LOWEST else ()
-    fits = [(fit(d), d) for d in (none, *low_passes)]
-    best, d = min(fits, key=lambda x: x[0].share / (CLEARLY if x[1] is none else 1.0))
-    words = "have passed" if d.kind == "none" else "were made by another demodulator, such as"
+        grid = np.linspace(np.log(LOWEST), np.log(min(HIGHEST, s.flight.rate / 4)), CORNERS)
+        return Demodulation(kind, float(np.exp(find_least(leave, grid, FINE))), order)
+
+    low_passes = starmap(find_corner, product(("causal", "butterworth"), ORDERS))
+    best, d = min(((fit(d), d) for d in low_passes), key=lambda x: x[0].share)
+    what = f"inline and cross were made by another demodulator, such as {d.words()}"
     remedy = f"if so, describe it in model.toml or in a mapping: [demodulator] {d.toml()}; else record G_out itself"
-    return Hypothesis(f"inline and cross {words} {d.words()}", remedy, best, timing.COST, calming=True)
-
-
-def list_low_passes() -> Iterator[tuple[Callable[[float], Demodulation], int]]:
-    """Every kind of low-pass, by its corner, Hz, and how many corners are tried first; a causal one also with the delay of
-    slow signals taken back.
-    """
-    for n in ORDERS:
-        slow = 1.0 / (2 * np.pi * np.sin(np.pi / (2 * n)))
-        for kind, early in (("causal", 0.0), ("causal", slow), ("butterworth", 0.0)):
-            yield partial(_make_butterworth, kind, early, n), FEW_CORNERS
-    yield lambda corner: Demodulation("average", length=FLAT / corner), MANY
-    yield lambda corner: Demodulation("causal average", length=FLAT / corner), MANY
-
-
-def _make_butterworth(kind: str, early: float, order: int, corner: float) -> Demodulation:
-    return Demodulation(kind, corner, order, delay=-early / corner)
+    return Hypothesis(what, remedy, best, timing.COST, calming=True)

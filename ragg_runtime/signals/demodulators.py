@@ -14,8 +14,8 @@ inline channels, (Gamma_yy - Gamma_zz) + (Gamma_zz - Gamma_xx) + (Gamma_xx - Gam
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import cache, cached_property
 from types import MappingProxyType
 from typing import NamedTuple
@@ -40,7 +40,6 @@ REFERENCE = 16.0
 ORDER, CORNER = 6, 0.18
 # share of its sum at which a Butterworth kernel is cut off: far below what noise leaves of any gradient
 FORGOTTEN = 1e-9
-ROOM = 32  # samples on either side into which a delay of part of a sample may ring
 # highest frequency, Hz, at which power is summed, as nothing passes beyond it; and number of frequencies
 TOP, GRID = 0.5, 4001
 EDGE = 1e-4  # share of the kernel that may lie beyond the record's end: of a gradient of 1000 Eo it is 0.1 Eo
@@ -140,25 +139,6 @@ class Demodulator:
         half = max(self.before, self.ahead)
         return np.pad(self.taps, (half - self.ahead, half - self.before))
 
-    def thin(self, factor: int) -> Demodulator:
-        """The same filter at a rate lower by ``factor``, of which input and output keep every so many-th sample."""
-        taps = self.taps[self.ahead % factor :: factor]
-        return replace(self, rate=self.rate / factor, taps=taps / np.sum(taps), ahead=self.ahead // factor)
-
-    def delay_by(self, seconds: float) -> Demodulator:
-        """Its output so much later; by parts of a sample with a phase in the spectrum."""
-        samples = round(seconds * self.rate)
-        fraction = seconds * self.rate - samples
-        taps, ahead = self.taps, self.ahead - samples
-        if abs(fraction) > 1e-9:
-            taps = np.pad(taps, ROOM)
-            ahead += ROOM
-            spectrum = np.fft.rfft(taps) * np.exp(-2j * np.pi * np.fft.rfftfreq(len(taps)) * fraction)
-            taps = np.fft.irfft(spectrum, len(taps))
-        # of the past alone, or of the future alone: the kernel then has zeros at the present
-        taps = np.pad(taps, (max(0, -ahead), max(0, ahead - len(taps) + 1)))
-        return replace(self, taps=taps, ahead=max(0, ahead))
-
     def response(self, frequency: Array) -> NDArray[np.complex128]:
         """Complex gain at frequencies, Hz; its phase is against the sample's own instant."""
         back = np.exp(-2j * np.pi * frequency / self.rate)
@@ -178,24 +158,24 @@ class Demodulator:
         return convolve(padded, self.taps)
 
 
-def fir(rate: float, cutoff: float = CUTOFF) -> Demodulator:
-    """The paper's low-pass, or one as narrow at another corner, Hz."""
-    taps, remark = low_pass(rate, cutoff=cutoff), " (the paper's)" if cutoff == CUTOFF else ""
-    words = f"linear-phase FIR, half amplitude at {cutoff:g} Hz{remark}"
+def fir(rate: float, cutoff: float | None, order: int | None) -> Demodulator:
+    """The paper's low-pass, or one as narrow at another corner, Hz; it has no ``order``."""
+    taps, remark = low_pass(rate, cutoff=cutoff or CUTOFF), "" if cutoff else " (the paper's)"
+    words = f"linear-phase FIR, half amplitude at {cutoff or CUTOFF:g} Hz{remark}"
     return Demodulator("fir", rate, taps, len(taps) // 2, words)
 
 
-def butterworth(rate: float, order: int = ORDER, cutoff: float = CORNER) -> Demodulator:
+def butterworth(rate: float, cutoff: float | None, order: int | None) -> Demodulator:
     """Forward and backward."""
-    h = _measure_impulse(rate, order, cutoff)
-    words = f"Butterworth of order {order} at {cutoff:g} Hz, forward and backward"
+    h = _measure_impulse(rate, order or ORDER, cutoff or CORNER)
+    words = f"Butterworth of order {order or ORDER} at {cutoff or CORNER:g} Hz, forward and backward"
     return Demodulator("butterworth", rate, convolve(h, h[::-1], "full"), len(h) - 1, words)
 
 
-def causal(rate: float, order: int = ORDER, cutoff: float = CORNER) -> Demodulator:
+def causal(rate: float, cutoff: float | None, order: int | None) -> Demodulator:
     """Forward alone."""
-    words = f"Butterworth of order {order} at {cutoff:g} Hz, forward only"
-    return Demodulator("causal", rate, _measure_impulse(rate, order, cutoff), 0, words)
+    words = f"Butterworth of order {order or ORDER} at {cutoff or CORNER:g} Hz, forward only"
+    return Demodulator("causal", rate, _measure_impulse(rate, order or ORDER, cutoff or CORNER), 0, words)
 
 
 def _measure_impulse(rate: float, order: int, cutoff: float) -> Array:
@@ -215,26 +195,16 @@ def _measure_impulse(rate: float, order: int, cutoff: float) -> Array:
     return np.asarray(h / np.sum(h))
 
 
-def average(rate: float, seconds: float, *, centred: bool = True) -> Demodulator:
-    """A moving average; samples at its ends count in part, so that its length may be any."""
-    samples = max(seconds * rate, 1.0)
-    first = -samples / 2 if centred else -0.5
-    n = np.arange(np.floor(first + 0.5), np.ceil(first + samples + 0.5))
-    taps = np.clip(np.minimum(n + 0.5, first + samples) - np.maximum(n - 0.5, first), 0.0, None)
-    return Demodulator("average" if centred else "causal average", rate, taps / np.sum(taps), int(-n[0]))
-
-
-DEMODULATORS: Mapping[str, Callable[[float], Demodulator]] = MappingProxyType(
-    {"fir": fir, "butterworth": butterworth, "causal": causal}
-)
-"""Name -> demodulator at a sampling rate, Hz."""
+DEMODULATORS = MappingProxyType({"fir": fir, "butterworth": butterworth, "causal": causal})
 
 
 @cache
-def find_demodulator(name: str, rate: float) -> Demodulator:
-    """The demodulator of this name; UserError if there is none."""
+def find_demodulator(
+    name: str, rate: float, cutoff: float | None = None, order: int | None = None
+) -> Demodulator:
+    """The demodulator of this name, at a sampling rate, Hz, with the usual corner, Hz, and order or others; UserError if there is none."""
     check_choice(name, tuple(DEMODULATORS), "demodulator", "there is no such demodulator")
-    return DEMODULATORS[name](rate)
+    return DEMODULATORS[name](rate, cutoff, order)
 
 
 Axis = Sequence[float] | Array

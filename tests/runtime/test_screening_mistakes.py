@@ -308,8 +308,7 @@ CAUSAL = signal.butter(3, 0.15, fs=16, output="sos")
 
 def test_another_demodulator_is_named_with_its_size(monkeypatch) -> None:
     leave_out(monkeypatch, "timing")
-    low_passes = [x for x in mistakes.list_low_passes() if (x[0](0.1).kind, x[0](0.1).order) == ("causal", 3)]
-    monkeypatch.setattr(mistakes, "list_low_passes", lambda: iter(low_passes))
+    monkeypatch.setattr(mistakes, "ORDERS", (3,))
     f = found_in(demodulated(drawn(14), flown(14), lambda z: signal.sosfilt(CAUSAL, z)), drawn(14).sheet)
     assert f is not None and 'kind = "causal", cutoff = "0.15 Hz", order = 3;' in f.best.remedy
 

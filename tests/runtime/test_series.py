@@ -38,7 +38,7 @@ from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.mapping import parse_mapping
 from ragg_runtime.model import derive, model
 from ragg_runtime.model.model import make_vector, scale_factor
-from ragg_runtime.model.record import make_kernel, record
+from ragg_runtime.model.record import record
 from ragg_runtime.reference import disc_angle, simulate, still
 from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.scenario import Scenario, perfect, scenario
@@ -130,10 +130,6 @@ MADE: dict[str, tuple[Callable[[Array], Array], Demodulation]] = {
         lambda z: signal.sosfiltfilt(BOTH, z),
         Demodulation(kind="butterworth", order=2, cutoff=0.12),
     ),
-    "late": (
-        lambda z: np.concatenate([np.zeros(8), signal.sosfilt(CAUSAL, z)[:-8]]),
-        Demodulation(kind="causal", order=3, cutoff=0.15, delay=0.5),
-    ),
     "fir": (lambda z: signal.oaconvolve(z, low_pass(FAST), mode="same"), Demodulation()),
 }
 
@@ -158,7 +154,7 @@ def compared(x: Flight, trim: str = "table-v") -> Comparison:
     return compare(model.load_packaged(), channels_flown(trim)[0].sheet, [x])
 
 
-@pytest.mark.parametrize("name", ["both ways", "late"])
+@pytest.mark.parametrize("name", ["both ways", "causal"])
 def test_the_fit_goes_by_the_demodulator_that_is_declared(name: str) -> None:
     """The output is ten million eotvos, the noise one: a low-pass that is off by 1e-6 would show."""
     low, how = MADE[name]
@@ -167,7 +163,7 @@ def test_the_fit_goes_by_the_demodulator_that_is_declared(name: str) -> None:
 
 
 def test_the_sheet_counts_where_the_flight_says_nothing() -> None:
-    how, other = MADE["causal"][1], Demodulation(kind="average", length=4.0)
+    how, other = MADE["causal"][1], Demodulation(cutoff=0.1)
     s, x = channels_flown()
     assert record(x, s.sheet).demodulation == Demodulation()
     assert record(x, replace(s.sheet, demodulation=how)).demodulation == how
@@ -176,7 +172,7 @@ def test_the_sheet_counts_where_the_flight_says_nothing() -> None:
 
 def test_channels_that_were_made_at_the_records_own_rate_are_adequate() -> None:
     x = channels(lambda z: signal.oaconvolve(z, low_pass(FAST / 4), mode="same"), 4, "matched")
-    assert compared(replace(x, demodulation=Demodulation(rate=4.0)), "matched").adequate
+    assert compared(x, "matched").adequate
 
 
 def test_channels_every_second_are_seen_both() -> None:
@@ -212,7 +208,7 @@ def test_it_stands_in_model_toml_and_in_a_mapping(tmp_path: Path) -> None:
     [
         ({"kind": "chebyshev"}, "there is no such demodulator"),
         ({"kind": "causal", "cutoff": "0.2 Hz"}, "no order"),
-        ({"kind": "average", "length": "4 s", "order": 2}, "order, which average does not have"),
+        ({"kind": "fir", "order": 2}, "unknown key"),
         ({"kind": "causal", "cutoff": "0.2 m", "order": 2}, "cutoff"),
         ({"kind": "causal", "cutoff": "-0.2 Hz", "order": 2}, "cutoff must be positive"),
         ({"kind": "causal", "cutoff": "0.2 Hz", "order": 0}, "no such order"),
@@ -225,9 +221,7 @@ def test_what_cannot_be_a_demodulator_is_told(table: object, words: str) -> None
         read_demodulation(table, "model.toml: [demodulator]")
 
 
-def test_a_rate_that_cannot_be_is_told() -> None:
-    with pytest.raises(UserError, match="not a multiple of the record's"):
-        make_kernel(Demodulation(rate=10.0), 4.0)
+def test_a_rate_that_is_too_low_is_told() -> None:
     with pytest.raises(UserError, match="sampling rate"):
         demodulate(np.zeros(100), np.zeros(100), 0.4, 1.0)
 
