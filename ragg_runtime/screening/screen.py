@@ -9,19 +9,16 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError, at, count
+from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.base.progress import one_thread, split_range
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.layout import Disc
 from ragg_runtime.io import Flight
 from ragg_runtime.io.assemble import FEWEST_LEVELS, derive_acceleration
 from ragg_runtime.io.record import (
-    ANGULAR_ACCELERATION,
     ANGULAR_RATE,
     DEMODULATED,
     SPECIFIC_FORCE,
     Flag,
-    is_disc_angle,
 )
 from ragg_runtime.io.sampling import (
     JITTER_NOTED,
@@ -42,30 +39,10 @@ from ragg_runtime.screening.readings import (
     leave_out_glitches,
     leave_out_repeated,
 )
-from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
 
-UNLIKE = 0.44
-"""Share of an angular acceleration that the derivatives of the rates may leave for it to be compared with them (a correlation of
-0.9)."""
-
-# factor within which an angular acceleration has the size of its rate's derivative: smoothing and noise stay below it
-SAME_SIZE = 2.0
-# samples from which two series can be compared, or a clock is looked at: with fewer the model fits any
-FEWEST = 64
-
-LEAP, SIDE, SMOOTH, TURNED = 0.8, 4, 0.05, 0.1
-"""Share of its range by which a column leaps where its numbers overflow; samples on either side in which it moves on by more than two
-usual steps (a platform that is set from one attitude to another rests there); share of the range of a usual step, at most; share of the
-leaps beside which it may turn: a force about the limit crosses it to and fro."""
-
-FEWEST_FALLS, MOST_FALLS, SAME_TURN = 3, 0.25, 0.02
-"""Falls of a disc's angle, at least, that tell the size of a turn; their share of the samples, at most; relative distance from a turn that
-is rounding."""
-
-# relative distance of the encoder's rate from the model's spin rate that a disc's own slowness may have
-SAME_SPIN = 2e-3
+FEWEST = 64  # samples from which a clock is looked at: with fewer the model fits any
 
 # g: no carrier keeps this up for half of a flight. A larger force of a wrong unit goes unnoticed else: an output of differences asks for
 # less and less unequal accelerometers (specific force 100 to 1e4 times too large left 10 Eo, every parameter at its sheet)
@@ -90,8 +67,6 @@ def require_comparable(model: Model, instrument: Instrument, flight: Flight) -> 
                 remedy=f"record it, or take the effect out: ragg remove MODEL_DIR {e.id}",
             )
     _require_force(where, flight, instrument.g0)
-    for column in filter(is_disc_angle, flight.channels):
-        _require_turns(where, flight, column)
     f = max(abs(d.spin_frequency) for d in instrument.layout.discs)
     check = "check the unit of time (s, ms, min) and spin_frequency"
     if 0 < flight.duration * f < 1:
@@ -135,24 +110,6 @@ def _require_force(where: Path | str, flight: Flight, g0: float) -> None:
         )
 
 
-def _require_turns(where: Path | str, flight: Flight, column: str) -> None:
-    """UserError if the angle of a disc falls back by another size than a turn or a few: it is in counts, or in degrees."""
-    angle = flight.channels[column][flight.valid]
-    steps = np.abs(np.diff(angle))
-    falls = steps > LEAP * (np.ptp(angle) if len(angle) else 0.0)
-    if not FEWEST_FALLS <= np.sum(falls) <= MOST_FALLS * len(steps):
-        return  # it counts on, or is too coarse to tell
-    turn = float(np.median(steps[falls]) + np.median(steps[~falls]))
-    if np.min(np.abs(turn / (2 * np.pi * np.arange(1, 5)) - 1.0)) > SAME_TURN:
-        raise UserError(
-            "the angle of the disc does not begin anew after whole turns",
-            where=at(where, f"column {column!r}"),
-            found=f"it falls back by {turn:.6g} rad, {count(int(np.sum(falls)), 'time')}",
-            expected=f"by 2 pi = {2 * np.pi:.6g} rad",
-            remedy=f'if these are counts of an encoder, or degrees: scale = {2 * np.pi / turn:.9g}, unit = "rad" in a mapping',
-        )
-
-
 def _require_rate(what: str, where: Path | str, rate: float, f: float, remedy: str) -> None:
     """UserError if a flight or its output has too few samples, Hz, for a disc at ``f``, Hz."""
     if f > 0.0 and rate <= 4 * f:
@@ -166,10 +123,9 @@ def _require_rate(what: str, where: Path | str, rate: float, f: float, remedy: s
 
 
 def list_remarks(instrument: Instrument, flight: Flight) -> list[Flag]:
-    """Columns that are constant or contradict each other, with the likely mistake."""
-    encoders = (x for d in instrument.layout.discs for x in _note_encoder(d, flight))
-    notes = (*_note_rates(flight), *encoders, *_note_angle_origin(instrument, flight))
-    return [*_flag_still(flight), *_flag_coarse(flight), *_flag_leaps(flight), *(Flag((), t) for t in notes)]
+    """Columns that are constant or nearly so, and from where the disc angle counts."""
+    notes = _note_angle_origin(instrument, flight)
+    return [*_flag_still(flight), *_flag_coarse(flight), *(Flag((), t) for t in notes)]
 
 
 def _flag_still(flight: Flight) -> list[Flag]:
@@ -186,30 +142,6 @@ def _flag_coarse(flight: Flight) -> list[Flag]:
     warm = {n: np.unique(x[flight.valid]) for n, x in flight.channels.items() if flight.units.get(n) == "K"}
     words = "is recorded in so few values that an effect of it may look like a drift, a step or an error of the spin rate"
     return [Flag((n,), f"{n} {words}", kind="coarse") for n, x in warm.items() if 1 < len(x) < FEWEST_LEVELS]
-
-
-def _flag_leaps(flight: Flight) -> list[Flag]:
-    """Columns that leap from one end of their range to the other and move on there, as whole numbers do that overflow."""
-    flags, columns = [], {**flight.channels, **flight.outputs}
-    pairs = flight.valid[1:] & flight.valid[:-1]  # over a gap it moves on unseen
-    for name in (n for n in (*MOTION, *flight.outputs) if n in columns and pairs.any()):
-        x = columns[name]
-        steps = np.where(pairs, np.diff(x), 0.0)
-        usual, span = float(np.median(np.abs(steps[pairs]))), float(np.ptp(x[flight.valid]))
-        leaps = np.flatnonzero(np.abs(steps) > LEAP * span)
-        leaps = leaps[(leaps >= SIDE) & (leaps < len(steps) - SIDE)]
-        way = -np.sign(steps[leaps])  # the way in which it moves, before and after
-        moves = np.r_[way * (x[leaps] - x[leaps - SIDE]), way * (x[leaps + 1 + SIDE] - x[leaps + 1])]
-        moves = moves[moves < LEAP * span]  # not over another leap
-        if usual > SMOOTH * span or not len(moves):
-            continue
-        if np.median(moves) > 2 * usual and np.quantile(moves, TURNED) > -2 * usual:
-            text = (
-                f"{name} leaps from one end of its range to the other and moves on there, {count(len(leaps), 'time')}, first"
-                f" at t = {flight.time[leaps[0] + 1]:.6g} s: did the numbers of a converter overflow?"
-            )
-            flags.append(Flag((name,), text, open=True))
-    return flags
 
 
 def _find_one_value(x: Array) -> float | None:
@@ -232,46 +164,6 @@ def _note_angle_origin(instrument: Instrument, flight: Flight) -> list[str]:
         side = "before" if start > 0 else "after"
         return [f"the disc angle counts from t = 0, {abs(start):.6g} s {side} the first sample"]
     return [] if first == 0.0 else [f"the disc angle counts from the first sample (t = {first:.6g} s)"]
-
-
-def _note_rates(flight: Flight) -> list[str]:
-    """The recorded angular acceleration against the derivative of the recorded rate."""
-    if not all(n in flight.channels for n in ANGULAR_ACCELERATION):
-        return []
-    G = np.array([flight.channels[n] for n in ANGULAR_ACCELERATION])
-    W = np.array([differentiate(flight.channels[n], flight.rate, flight.valid) for n in ANGULAR_RATE])
-    present = flight.valid & np.isfinite([*G, *W]).all(axis=0)
-    if np.sum(present) < FEWEST:
-        return []
-    G, W = (x[:, present] - np.mean(x[:, present], axis=1, keepdims=True) for x in (G, W))
-    B = np.linalg.lstsq(W.T, G.T, rcond=None)[0].T
-    notes = []
-    for k, (rate, change) in enumerate(zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True)):
-        best = int(np.argmax(np.abs(B[k]) * np.std(W, axis=1)))
-        factor = float(B[k, best])
-        if np.std(G[k] - B[k] @ W) > UNLIKE * np.std(G[k]) or factor == 0.0:
-            continue
-        if best != k or not 1 / SAME_SIZE < factor < SAME_SIZE:
-            remark = f", not that of {rate}" if best != k else ""
-            notes.append(
-                f"{change} is {factor:.3g} times the derivative of {ANGULAR_RATE[best]}{remark}: check axes, signs and units of both"
-            )
-    return notes
-
-
-def _note_encoder(disc: Disc, flight: Flight) -> list[str]:
-    """The encoder's rate against the model's spin rate."""
-    column, f = disc.angle_column, disc.spin_frequency
-    if column not in flight.channels or f == 0.0:
-        return []
-    turned = np.diff(np.unwrap(flight.channels[column]))
-    rate = float(np.median(turned / np.diff(flight.time))) / (2 * np.pi)
-    if abs(rate - f) < SAME_SPIN * abs(f):
-        return []
-    return [
-        f"{column} turns at {rate:.6g} Hz, the model's disc at {f:.6g} Hz: the angle is used; check its sign, its unit (degrees for"
-        " radians?) and spin_frequency"
-    ]
 
 
 Mask = NDArray[np.bool_]
