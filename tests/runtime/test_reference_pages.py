@@ -51,7 +51,7 @@ WITH_AN_UNKNOWN_KEY = {
     "[[disc]]": f"{DISCS}odd = 1\n{LAST}",
     "[[disc.accelerometer]]": f"{DISCS}[[disc.accelerometer]]\nodd = 1\n{LAST}",
     "[accelerometers]": f"{DISC}[accelerometers]\nodd = 1",
-    "[demodulator]": f"[demodulator]\nodd = 1\n{DISC}{LAST}",
+    "[demodulator]": f"[demodulator]\nkind = 'causal'\nodd = 1\n{DISC}{LAST}",
 }
 """Section of the page -> a model.toml that is refused, with the keys that are known there."""
 
