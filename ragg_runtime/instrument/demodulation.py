@@ -42,17 +42,10 @@ class Demodulation:
         }[self.kind]
         return text + (f" at {self.cutoff:.3g} Hz" if self.cutoff is not None else "")
 
-    def entries(self, digits: str = "") -> dict[str, str | int]:
-        """Keys and values for a file; numbers with so many ``digits`` (a format), or all."""
-        entries: dict[str, str | int] = {"kind": self.kind}
-        if self.cutoff is not None:
-            entries["cutoff"] = f"{self.cutoff:{digits}} Hz"
-        return entries | ({} if self.order is None else {"order": self.order})
-
-    def toml(self) -> str:
-        """The same on one line, rounded."""
-        text = {k: f'"{v}"' if isinstance(v, str) else v for k, v in self.entries(".4g").items()}
-        return ", ".join(f"{k} = {v}" for k, v in text.items())
+    def entries(self) -> dict[str, str | int]:
+        """Keys and values for a file."""
+        cutoff = {} if self.cutoff is None else {"cutoff": f"{self.cutoff} Hz"}
+        return {"kind": self.kind, **cutoff, **({} if self.order is None else {"order": self.order})}
 
 
 OURS = Demodulation()

@@ -132,9 +132,9 @@ class Sampler:
         self,
         rows: Index | None = None,
         *,
-        motion_later: int | Index = 0,
+        motion_later: int = 0,
         of: Sequence[str] = ("a", "omega", "omegadot", "Gamma"),
-        output_later: int | Index = 0,
+        output_later: int = 0,
         spin_frequency: float | None = None,
         phase: float | Array = 0.0,
     ) -> Rows:
@@ -145,8 +145,8 @@ class Sampler:
         rows
             (n,) which; ``None``: as many as a fit takes.
         motion_later, of, output_later
-            Samples by which the quantities ``of`` motion, or the output, are taken later than recorded, one or (n,); rows that
-            would lie outside are left out.
+            Samples by which the quantities ``of`` motion, or the output, are taken later than recorded; rows that would lie outside
+            are left out.
         spin_frequency
             Hz, in place of the instrument's (or the encoder's angle).
         phase

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import combinations, permutations, product, starmap
+from itertools import combinations, permutations, product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.estimation.regressors import list_base_columns
-from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.instrument import PARAMETERS
 from ragg_runtime.io.record import ANGULAR_ACCELERATION
 from ragg_runtime.model.model import make_vector
@@ -23,7 +22,6 @@ from ragg_runtime.screening.linear_fit import (
     LinearFit,
     Rows,
     Sampler,
-    find_least,
     find_stem,
     fit_rows,
 )
@@ -73,12 +71,8 @@ def find_mistake(s: Sampler) -> Finding | None:
     parts: list[Hypothesis] = []
     if (before.kept < 1.0 - RARE or before.share > timing.LARGE) and not s.recorded.demodulated:
         parts = timing.propose_parts(s)
-    finding = _choose(before, [*hypotheses, *parts])
-    if finding is None and parts:  # few enough rows for a robust fit to have passed over them
-        finding = Finding(parts[0], (), before)
-    if not s.recorded.demodulated or (finding is not None and finding.factor > 5.0):
-        return finding
-    return _choose(before, [*hypotheses, _propose_demodulator(s)])  # takes a while: if nothing else would do
+    # a part of few enough rows: a robust fit has passed over them
+    return _choose(before, [*hypotheses, *parts]) or (Finding(parts[0], (), before) if parts else None)
 
 
 def _choose(before: LinearFit, hypotheses: Sequence[Hypothesis]) -> Finding | None:
@@ -293,31 +287,3 @@ def _turn(rows: Rows, group: tuple[str, ...], order: tuple[int, ...], signs: tup
         if all(n in rows.record.wide for n in names):
             changed |= {names[k]: signs[k] * rows.record.wide[names[order[k]]] for k in range(3)}
     return rows.change(changed)
-
-
-# --- channels that another demodulator has made ---------------------------------------------------------
-
-LOWEST, HIGHEST, CORNERS = 0.02, 0.35, 6  # Hz: corners that are looked for, of which so many are tried first
-FINE = 1e-3  # relative precision of a corner
-ORDERS = (1, 2, 3, 4, 6, 8)  # of Butterworth filters, causal, or in each direction
-
-
-def _propose_demodulator(s: Sampler) -> Hypothesis:
-    """The Butterworth low-pass with which the model leaves least of inline and cross."""
-    rows = s.take()
-
-    def fit(d: Demodulation) -> LinearFit:
-        return fit_rows(replace(rows, record=replace(rows.record, demodulation=d)))
-
-    def find_corner(kind: str, order: int) -> Demodulation:
-        def leave(x: float) -> float:
-            return fit(Demodulation(kind, float(np.exp(x)), order)).share
-
-        grid = np.linspace(np.log(LOWEST), np.log(min(HIGHEST, s.flight.rate / 4)), CORNERS)
-        return Demodulation(kind, float(np.exp(find_least(leave, grid, FINE))), order)
-
-    low_passes = starmap(find_corner, product(("causal", "butterworth"), ORDERS))
-    best, d = min(((fit(d), d) for d in low_passes), key=lambda x: x[0].share)
-    what = f"inline and cross were made by another demodulator, such as {d.words()}"
-    remedy = f"if so, describe it in model.toml or in a mapping: [demodulator] {d.toml()}; else record G_out itself"
-    return Hypothesis(what, remedy, best, timing.COST, calming=True)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -33,12 +33,12 @@ SPIN_RANGE = 0.05  # relative error of the spin rate that is looked for
 # start of a record after angle 0 of its disc, s, up to which the spin rate is looked for: the grid is the finer
 LATEST = 1e4
 
-SLIP_ROWS, SWITCH, MOST_SLIPS = 800, 30.0, 4
-"""Rows on which slips of one recorder against another are looked for; what a change of the lag costs, from a third to three times of
-which finds the same (docs/contributors/decisions.md); most of them in a record."""
+JUMP_ROWS, SWITCH, MOST_JUMPS = 800, 30.0, 4
+"""Rows on which places are looked for where rows are missing; what a change of their number costs, from a third to three times of
+which finds the same (docs/contributors/decisions.md); most such places in a record."""
 
-# most parts of a record whose lags are looked for, and turns of the disc in each: a slip must fill one
-SLIP_PARTS, SLIP_TURNS = 16, 4
+# most parts of a record in which missing rows are counted, and turns of the disc in each: what lies between two places must fill one
+JUMP_PARTS, JUMP_TURNS = 16, 4
 # shifts that are tried: about the tops of a cross-correlation, and on from there while less is left
 MOST_SHIFTS = 64
 LONGEST = 1 << 18  # samples of which a shift is estimated
@@ -75,13 +75,13 @@ COST = 3.0  # what orders a mistake of timing after one of columns that explains
 def propose_times(s: Sampler) -> list[Hypothesis]:
     """The best of each kind of mistake."""
     turning, whole = s.disc.spin_frequency != 0.0, not s.recorded.demodulated
-    hypotheses = [*_propose_shifts(s), *_propose_slips(s)] if whole else []
+    hypotheses = _propose_shifts(s) if whole else []
     if turning and whole:  # a demodulator at the wrong rate lets nothing through
         hypotheses += _propose_spin(s)
     if turning and not (s.has_encoder and whole):
         hypotheses += _propose_phase(s)
     if turning and whole and not s.has_encoder:
-        hypotheses += _propose_losses(s)
+        hypotheses += [*_propose_jumps(s), *_propose_losses(s)]
     return hypotheses
 
 
@@ -233,37 +233,15 @@ def propose_parts(s: Sampler) -> list[Hypothesis]:
     return [Hypothesis(what, remedy, fitted, COST + 1.0, effects=("gain-step",))]
 
 
-@dataclass(frozen=True)
-class _Late:
-    """What may be late."""
+Options = Callable[[Any], dict[str, Any]]
+"""Those of :meth:`Sampler.take` for rows as if something were not so many samples late."""
 
-    name: str  # in words
-    columns: str
-    against: str  # what
-    of: tuple[str, ...] = ()  # the quantities of motion; none: the output
-
-    def options(self, s: Sampler, k: int | Index) -> dict[str, Any]:
-        """Those of :meth:`Sampler.take` for rows as if this were not ``k`` samples late, one or (n,)."""
-        if self is _RECORD:
-            return {"phase": 2 * np.pi * s.disc.spin_frequency / s.flight.rate * k}
-        return {"motion_later": k, "of": self.of} if self.of else {"output_later": -k}
-
-    def reach(self, lags: Collection[int], samples: int) -> int:
-        """Samples to leave out at either end, for every lag to stay within the record; against the disc a loss there is a phase."""
-        return samples // 100 if self is _RECORD else max(map(abs, lags))
-
-    def describe(self, k: int, rate: float) -> str:
-        """By how much it is late, in words."""
-        way = "late" if (k > 0) == bool(self.of) else "early"
-        return f"{abs(k) / rate:.6g} s ({count(abs(k), 'sample')}) {way}"
-
-
-_MOTION = _Late("the motion record is", "motion columns", "the output", ("a", "omega", "omegadot", "Gamma"))
-_FORCE = _Late("a_x, a_y, a_z are", "columns", "the output", ("a",))
-_RATES = _Late("omega_x, omega_y, omega_z are", "columns", "the rest", ("omega", "omegadot"))
-_AXES = (_Late("a_x is", "column", "the output", ("a_x",)), _Late("a_y is", "column", "the output", ("a_y",)))
-_OUTPUT = _Late("the output is", "output column", "motion and disc angle")
-_RECORD = _Late("the record is", "rows", "the disc")
+_LATE: Sequence[tuple[str, str, bool, Options]] = (
+    ("the motion record is", "motion columns", True, lambda k: {"motion_later": k}),
+    ("a_x, a_y, a_z are", "columns", True, lambda k: {"motion_later": k, "of": ("a",)}),
+    ("the output is", "output column", False, lambda k: {"output_later": -k}),
+)
+"""What may be late, what is then to be shifted, whether it is motion, and how it is taken."""
 
 
 def _propose_shifts(s: Sampler) -> list[Hypothesis]:
@@ -271,74 +249,53 @@ def _propose_shifts(s: Sampler) -> list[Hypothesis]:
     rows, rate = s.rows(most=400), s.flight.rate
     lags = [k for k in _list_lags(s) if k != 0]
     shifts = []
-    for x in (_MOTION, _FORCE, *_AXES, _OUTPUT) if lags else ():
-        k = _find_lag(s, rows, lags, x)
-        what = f"{x.name} {x.describe(k, rate)} against {x.against}"
-        remedy = f"shift the {x.columns} by {abs(k) / rate:.6g} s"
-        effects, cost = (("time-offset",), COST) if x in (_MOTION, _OUTPUT) else ((), COST + 1.0)
-        shifts.append(Hypothesis(what, remedy, s.fit(**x.options(s, k)), cost, "shift", effects))
+    for words, columns, motion, options in _LATE if lags else ():
+        k = _find_lag(s, rows, lags, options)
+        late = f"{abs(k) / rate:.6g} s ({count(abs(k), 'sample')}) {'late' if (k > 0) == motion else 'early'}"
+        what = f"{words} {late} against {'the output' if motion else 'motion and disc angle'}"
+        remedy = f"shift the {columns} by {abs(k) / rate:.6g} s"
+        effects, cost = ((), COST + 1.0) if columns == "columns" else (("time-offset",), COST)
+        shifts.append(Hypothesis(what, remedy, s.fit(**options(k)), cost, "shift", effects))
     return shifts
 
 
-def _propose_slips(s: Sampler) -> list[Hypothesis]:
-    """From some instant on, some columns are late, as one of two recorders lost samples, or wrote some twice; or all are, against the
-    disc, as rows were lost or doubled; perhaps several times.
-    """
-    n, f = len(s.flight), abs(s.disc.spin_frequency)
-    number = int(np.clip(s.flight.duration * f / SLIP_TURNS, 4, SLIP_PARTS))
+def _propose_jumps(s: Sampler) -> list[Hypothesis]:
+    """Rows are missing, or doubled, at a few places, while the stamps go on evenly: from there on the disc is ahead of them, or behind."""
+    n, f, rate = len(s.flight), abs(s.disc.spin_frequency), s.flight.rate
+    number = int(np.clip(s.flight.duration * f / JUMP_TURNS, 4, JUMP_PARTS))
     usable = np.flatnonzero(s.usable)
-    parts = list(pairwise([0, *usable[[len(usable) * k // number for k in range(1, number)]].tolist(), n]))
-    part_lags = [[k for k in _list_lags(s, *part, beside=0) if abs(k) < n // 8] for part in parts]
-    candidates = dict.fromkeys((_MOTION, _FORCE, _RATES, _OUTPUT), part_lags)
-    if f > 0.0 and not s.has_encoder:
-        candidates[_RECORD] = [np.rint(TURNED * s.flight.rate / f).astype(int).tolist()] * number
-    fits: list[tuple[float, _Late, Index, Index]] = []
-    for x, first in candidates.items():
-        lags = {
-            _find_lag(s, s.rows(*p, SLIP_ROWS // 4), [0, *k], x) for p, k in zip(parts, first, strict=True)
-        }
-        reach = x.reach(lags, n)
-        rows = s.rows(reach, n - reach, SLIP_ROWS)
-        for late in _follow_lags(s, rows, sorted({0, *lags}), x) if any(lags) else ():
-            if np.ptp(late):
-                fits.append((s.fit(rows, **x.options(s, late)).misfit, x, rows, late))
-    if not fits:
+    parts = pairwise([0, *usable[[len(usable) * k // number for k in range(1, number)]].tolist(), n])
+
+    def turn(k: Any) -> dict[str, Any]:
+        return {"phase": 2 * np.pi * s.disc.spin_frequency / rate * k}
+
+    tried = [0, *np.rint(TURNED * rate / f).astype(int).tolist()]
+    lags = {_find_lag(s, s.rows(*part, JUMP_ROWS // 4), tried, turn) for part in parts}
+    rows = s.rows(n // 100, n - n // 100, JUMP_ROWS)  # at an end a loss is a phase
+    paths = [x for x in _follow_lags(s, rows, sorted({0, *lags}), turn) if np.ptp(x)] if any(lags) else []
+    if not paths:
         return []
-    _, x, rows, late = min(fits, key=lambda one: one[0])
+    late = min(paths, key=lambda x: s.fit(rows, **turn(x)).misfit)
     # once more, by the model as fitted with these lags, with more rows and lags beside them
-    beside = [s.rows(int(rows[k]), int(rows[k + 1]) + 1, SLIP_ROWS) for k in np.flatnonzero(np.diff(late))]
+    beside = [s.rows(int(rows[k]), int(rows[k + 1]) + 1, JUMP_ROWS) for k in np.flatnonzero(np.diff(late))]
     near = sorted({0, *(int(k) + d for k in np.unique(late) for d in (-2, -1, 0, 1, 2))})
-    reach = x.reach(near, n)
     more = np.union1d(rows, np.concatenate([rows, *beside])).astype(np.intp)
-    more = more[(more >= reach) & (more < n - reach)]
     late = late[np.minimum(np.searchsorted(rows, more), len(rows) - 1)]
-    rows, late = more, next(_follow_lags(s, more, near, x, late))
-    slips = [
-        (float(s.flight.time[rows[k]]), *late[k - 1 : k + 1].tolist())
+    late = next(_follow_lags(s, more, near, turn, late))
+    jumps = [
+        (float(s.flight.time[more[k]]), *late[k - 1 : k + 1].tolist())
         for k in np.flatnonzero(np.diff(late)) + 1
     ]
-    if not slips or len(slips) > MOST_SLIPS:
+    if not jumps or len(jumps) > MOST_JUMPS:
         return []
-    what, remedy = _describe_losses(s, slips) if x is _RECORD else _describe_slips(s, x, slips)
-    return [Hypothesis(what, remedy, s.fit(rows, **x.options(s, late)), COST + 1.0)]
+    return [Hypothesis(*_describe_jumps(s, jumps), s.fit(more, **turn(late)), COST + 1.0)]
 
 
-def _describe_slips(s: Sampler, x: _Late, slips: Sequence[tuple[float, int, int]]) -> tuple[str, str]:
-    """What and the remedy: from which instants on, s, by how many samples before and since."""
-    rate, before = s.flight.rate, slips[0][1]
-    parts = [f"{x.describe(before, rate)} at first"] if before else []
-    parts += [f"{x.describe(k, rate) if k else 'in time'} from t = {at:.5g} s on" for at, _, k in slips]
-    return (
-        f"{x.name} {', '.join(parts)}, against {x.against}: did one of two recorders lose samples, or repeat some?",
-        f"shift the {x.columns} back from there on, or cut the record there and diagnose the parts",
-    )
-
-
-def _describe_losses(s: Sampler, slips: Sequence[tuple[float, int, int]]) -> tuple[str, str]:
-    """The same of the whole record against its disc."""
+def _describe_jumps(s: Sampler, jumps: Sequence[tuple[float, int, int]]) -> tuple[str, str]:
+    """What and the remedy: from which instants on, s, the disc is ahead by how many rows, before and since."""
     rate, turn = s.flight.rate, s.flight.rate / abs(s.disc.spin_frequency)
     parts = []
-    for at, before, since in slips:
+    for at, before, since in jumps:
         lost = round((since - before) % turn)
         rows = f"{lost} row{'s are' if lost != 1 else ' is'} missing there ({lost / rate:.4g} s)"
         parts.append(f"at t = {at:.5g} s: {rows}, or {round(turn - lost)} are duplicated")
@@ -348,24 +305,24 @@ def _describe_losses(s: Sampler, slips: Sequence[tuple[float, int, int]]) -> tup
     )
 
 
-def _find_lag(s: Sampler, rows: Index, lags: Sequence[int], x: _Late) -> int:
+def _find_lag(s: Sampler, rows: Index, lags: Sequence[int], options: Options) -> int:
     """The lag with which the model leaves least of some rows: the best of ``lags``, or of those beside it as long as they leave less."""
     misfits: dict[int, float] = {}
     untried = [*lags]
     while untried and len(misfits) < MOST_SHIFTS:
-        misfits |= {k: s.fit(rows, **x.options(s, k)).misfit for k in untried}
+        misfits |= {k: s.fit(rows, **options(k)).misfit for k in untried}
         best = min(misfits, key=lambda k: misfits[k])
         untried = [k for d in (-1, 1) if (k := best + d or d) not in misfits]  # over 0, the record as it is
     return best
 
 
 def _follow_lags(
-    s: Sampler, rows: Index, lags: Sequence[int], x: _Late, late: Index | None = None
+    s: Sampler, rows: Index, lags: Sequence[int], options: Options, late: Index | None = None
 ) -> Iterator[Index]:
-    """The lag of some columns at every row, (rows,), each one of ``lags``: by the model as fitted with those known so far (``late``);
-    else as fitted to the first third as it is, and to the last third with the lag that suits it best.
+    """The lag at every row, (rows,), each one of ``lags``: by the model as fitted with those known so far (``late``); else as fitted to
+    the first third as it is, and to the last third with the lag that suits it best.
     """
-    systems = [linearise(s.take(rows, **x.options(s, np.full(len(rows), k)))) for k in lags]
+    systems = [linearise(s.take(rows, **options(k))) for k in lags]
     third, positions = len(rows) // 3, np.arange(len(rows))
     choices = [
         [(*systems[lags.index(0)], slice(0, third))],
@@ -404,16 +361,15 @@ def find_path(costs: Array, switch: float) -> Index:
     return path
 
 
-def _list_lags(s: Sampler, first: int = 0, last: int | None = None, beside: int = 2) -> Sequence[int]:
-    """Samples by which the motion may be late in a segment: where the output at the spin rate resembles a_x, or a_y, or a_x + i a_y, or
-    its mirror image, most; and so many samples ``beside``.
+def _list_lags(s: Sampler) -> Sequence[int]:
+    """Samples by which the motion may be late: where the output at the spin rate resembles a_x, or a_y, or a_x + i a_y, or its mirror
+    image, most; and two samples beside.
     """
     x, f = s.flight, abs(s.disc.spin_frequency)
-    rows = np.arange(first, min(len(x) if last is None else last, first + LONGEST))
-    n = len(rows)
+    n = min(len(x), LONGEST)
     if not is_demodulable(x.rate) or (f > 0 and n < 3 * x.rate / f):
         return ()
-    output, motion = _mix(s, rows)
+    output, motion = _mix(s, np.arange(n))
     slopes = np.diff(
         convolve(np.stack([output, motion.real + 0j, motion.imag + 0j]), low_pass(x.rate), "same")
     )
@@ -423,7 +379,7 @@ def _list_lags(s: Sampler, first: int = 0, last: int | None = None, beside: int 
     lags = signal.correlation_lags(n - 1, n - 1)
     near = np.abs(lags) <= min(n // 4, int(FARTHEST * x.rate))
     tops = [int(lags[near][np.argmax(np.abs(like[near]))]) for like in likes]
-    return [*dict.fromkeys(k for top in tops for k in range(top - beside, top + beside + 1))]
+    return [*dict.fromkeys(k for top in tops for k in range(top - 2, top + 3))]
 
 
 def _mix(s: Sampler, rows: Index) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
