@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -224,19 +224,8 @@ def write_info(
     summary: Sequence[Section], flights: Sequence[Flight], source: Source, kind: str = "A flight"
 ) -> str:
     """The report of ``info``, or of another ``kind``: ``summary``, and every column of the flights over time."""
-    sections = list(summary)
-    for n, x in enumerate(flights[: panels.FLIGHTS]):
-        axes = tuple(_draw_columns(x, max(1, len(x.time) // panels.MOST_POINTS)))
-        caption = "Every column over time, in SI."
-        plot = Curves(f"columns{n}", caption, axes, "time, s", height=1.6)
-        sections += _draw(f"Columns of {x.name}", plot)
-    return render_page(kind, sections, source)
-
-
-def _draw_columns(x: Flight, step: int) -> Iterator[Axes]:
-    for name, v in {**x.channels, **x.outputs}.items():
-        curve = Curve(name, x.time[::step], np.asarray(v)[::step], width=0.7)
-        yield Axes((curve,), numbers.unit(x.units.get(name, "")), share=0.8)
+    drawn = (_draw(f"Columns of {x.name}", panels.plot_columns(x)) for x in flights[: panels.FLIGHTS])
+    return render_page(kind, [*summary, *(s for d in drawn for s in d)], source)
 
 
 # --- many flights --------------------------------------------------------------------------------------

@@ -31,11 +31,12 @@ from ragg_runtime.estimation.whitening import PreparedFlight
 from ragg_runtime.identification import comparison
 from ragg_runtime.identification import parameters as combinations
 from ragg_runtime.identification.parameters import UNSEEN
+from ragg_runtime.io import Flight
 from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.signals import derivative
 from ragg_runtime.signals.demodulators import CUTOFF, WIDTH
 from ragg_runtime.wording import describe, describe_other, numbers
-from ragg_runtime.wording.sections import Axes, Bar, Bars, Curve, Curves, Matrix, Section, Table
+from ragg_runtime.wording.sections import Axes, Bar, Bars, Curve, Curves, Matrix, Role, Section, Table
 
 Array = NDArray[np.float64]
 Residuals = Sequence[Array]
@@ -136,7 +137,7 @@ def pair_lines(before: Residuals, after: Residuals | None) -> Lines:
     return [("residual", before)] if after is None else [("before", before), ("after", after)]
 
 
-def _role(name: str) -> Any:
+def _role(name: str) -> Role:
     return "before" if name == "before" else "residual"
 
 
@@ -170,6 +171,48 @@ def plot_blocks(f: Fitted, lines: Lines, *, envelope: bool = False) -> Curves:
     if len(f.prepared) > FLIGHTS:
         caption += f" The {FLIGHTS} worst of {len(f.prepared)} flights."
     return Curves("time", caption, tuple(axes), SECONDS, height=1.8)
+
+
+def plot_window(
+    f: Fitted, n: int, residual: Array, window: tuple[float, float], spread: Array | None = None
+) -> Curves:
+    """What was measured over the model, and the residual (N,), V, of flight n between two instants, s.
+
+    ``spread`` (2, N), V: least and greatest residual of models within the uncertainty of the parameters.
+    """
+    w, k = f.prepared[n], f.scales[n]
+    r, measured = w.observation.record, compute_measured(w)
+    rows = slice(*np.searchsorted(r.time, window))
+    if len(r.time[rows]) < 2 * LEAST:
+        raise UserError("the segment is too short to be drawn", found=f"{len(r.time[rows])} samples")
+
+    def draw(label: str, x: Array, role: Role) -> Curve:
+        return _draw_channel(label, r.time[rows], np.where(r.valid, x, np.nan)[rows], role)
+
+    output = draw("measured", measured, "before"), draw("model", measured - residual, "residual")
+    curves = [draw("residual", residual / k, "residual")]
+    if spread is not None:
+        low, high = np.where(r.valid, spread / k, np.nan)[:, rows]
+        curves.insert(0, Curve("models within the uncertainty", r.time[rows], low, "envelope", "band", high))
+    axes = (
+        Axes(output, f"{f.observations[n].recorded.words}, V"),
+        Axes(tuple(curves), "residual, Eo", level=compute_noise_rms(w, k)),
+    )
+    return Curves(f"window{n}", "Measured over model, and the residual.", axes, SECONDS, height=1.6)
+
+
+def plot_columns(x: Flight) -> Curves:
+    """Every column of a flight over time, SI."""
+    step, units = max(1, len(x.time) // MOST_POINTS), x.units
+    axes = tuple(
+        Axes(
+            (Curve(name, x.time[::step], np.asarray(v)[::step], width=0.7),),
+            numbers.unit(units.get(name, "")),
+            share=0.8,
+        )
+        for name, v in {**x.channels, **x.outputs}.items()
+    )
+    return Curves("columns", "Every column over time, in SI.", axes, "time, s", height=1.6)
 
 
 def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
@@ -210,7 +253,9 @@ def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
         step = max(1, int(r.rate / (4.0 * DRAWN)))
         for channel, part, amplitude in (("inline", np.real, 4.0), ("cross", np.imag, 2.0)):
             level = predict_demodulated_noise(w, k, 2, amplitude)
-            curves = tuple(_draw_channel(label, r.time[::step], part(x[::step])) for label, x in channels)
+            curves = tuple(
+                _draw_channel(label, r.time[::step], part(x[::step]), _role(label)) for label, x in channels
+            )
             ends = (float(r.time[0]), float(r.time[-1]))
             title = f"{channel} of {name}" if name else channel
             axes.append(Axes(curves, "error, Eo", title, ends, level))
@@ -218,12 +263,12 @@ def plot_channels(f: Fitted, lines: Lines) -> Curves | None:
     return Curves("channels", caption, tuple(axes), SECONDS, height=1.6) if axes else None
 
 
-def _draw_channel(label: str, time: Array, x: Array) -> Curve:
+def _draw_channel(label: str, time: Array, x: Array, role: Role) -> Curve:
     """A line; its envelope where it has more points than can be drawn."""
     if len(x) <= MOST_POINTS:
-        return Curve(label, time, x, _role(label), width=0.8)
+        return Curve(label, time, x, role, width=0.8)
     middle, low, high, _ = find_envelope(time, x, np.isfinite(x), MOST_POINTS // 2)
-    return Curve(label, middle, low, _role(label), "band", high)
+    return Curve(label, middle, low, role, "band", high)
 
 
 def plot_harmonics(f: Fitted, residuals: Sequence[Array]) -> Bars | None:
@@ -247,8 +292,8 @@ def plot_harmonics(f: Fitted, residuals: Sequence[Array]) -> Bars | None:
     return Bars("where-harmonic", caption, bars, "slow error, Eo")
 
 
-def list_error_steps(steps: Sequence[Mapping[str, Any]], current: float | None = None) -> list[Bar]:
-    """The error after every step of a history, held out as dots, and ``current``: pale where the flights, not the model, are others."""
+def list_error_steps(steps: Sequence[Mapping[str, Any]]) -> list[Bar]:
+    """The error after every step of a history, held out as dots: pale where the flights, not the model, are others."""
     bars: list[Bar] = []
     change = ""
 
@@ -265,7 +310,6 @@ def list_error_steps(steps: Sequence[Mapping[str, Any]], current: float | None =
             bars.append(Bar(label, after, dot=np.nan if holdout is None else holdout))
         removed = {"remove": f"{numbers.MINUS} {s.get('effect')}", "edit": "sheet edited"}
         change = removed.get(str(s["action"]), "")
-    begin(current, None)
     return bars
 
 

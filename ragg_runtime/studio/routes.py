@@ -1,4 +1,4 @@
-"""What the page asks for and what it can do: JSON, binary series, pictures, events, files."""
+"""What the page asks for and what it can do: JSON, pictures, events, files."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from starlette.staticfiles import StaticFiles
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.units import RawQuantity
-from ragg_runtime.studio import mapping, series, views
+from ragg_runtime.studio import figures, mapping, views
 from ragg_runtime.studio.files import check_flight, receive_flight
 from ragg_runtime.studio.session import Busy, Session, SheetEdit, describe_failure
 from ragg_runtime.wording import numbers
@@ -88,12 +88,11 @@ async def _send_page(text: str, session: Session, request: Request) -> Response:
 
 
 async def _read(make: Callable[[Session, Request], Any], session: Session, request: Request) -> Response:
-    """A result for the page: bytes as they are (pictures begin with ``<``), everything else as JSON."""
+    """A result for the page: a picture as it is, everything else as JSON."""
     content = await run_in_threadpool(make, session, request)
-    if isinstance(content, bytes):
-        kind = "image/svg+xml" if content.startswith(b"<") else "application/octet-stream"
-        return Response(content, media_type=kind)
-    return _send_json(content)
+    return (
+        Response(content, media_type="image/svg+xml") if isinstance(content, bytes) else _send_json(content)
+    )
 
 
 def _send_json(content: Any) -> Response:
@@ -142,7 +141,7 @@ async def _send_events(session: Session, request: Request) -> Response:
     return StreamingResponse(events(), media_type="text/event-stream")
 
 
-def _read_asked(request: Request) -> series.Asked:
+def _draw(session: Session, request: Request) -> bytes:
     q = request.query_params
 
     def number(name: str, default: float) -> float:
@@ -154,18 +153,10 @@ def _read_asked(request: Request) -> series.Asked:
             raise UserError("a number is needed", where=name, found=q[name][:40])
         return value
 
-    unit = q.get("unit", "Eo")
-    if unit not in series.UNITS:
-        raise UserError("the unit is not known", found=unit[:40], expected=", ".join(series.UNITS))
-    return series.Asked(
-        what=q.get("what", "residual"),
-        unit=unit,
-        flight=int(number("flight", 0)),
-        output=int(number("output", 0)),
-        effects=tuple(sorted({e for e in q.get("effects", "").split(",") if e})),
-        first=number("from", -1e12),
-        last=number("to", 1e12),
-        points=int(min(max(number("points", 1500), 16), 20000)),
+    flight, output, spread = (int(number(name, 0)) for name in ("flight", "output", "fan"))
+    window = (number("from", -1e12), number("to", 1e12))
+    return figures.draw(
+        session.state, figures.Asked(q.get("what", "time"), flight, output, window, spread > 0)
     )
 
 
@@ -176,12 +167,7 @@ def _draft_mapping(session: Session, request: Request) -> Any:
 
 READS: Mapping[str, Callable[[Session, Request], Any]] = {
     "state": _show_state,
-    "series": lambda session, request: series.draw_series(session.state, _read_asked(request)),
-    "spectrum": lambda session, request: series.draw_spectra(session.state, _read_asked(request)),
-    "spectrogram": lambda session, request: series.draw_spectrogram(session.state, _read_asked(request)),
-    "heat": lambda session, request: series.draw_heat(session.state, _read_asked(request)),
-    "panel": lambda session, request: series.draw_panel(session.state, _read_asked(request)),
-    "preview": lambda session, request: series.draw_preview(session.state, _read_asked(request)),
+    "panel": _draw,
     "folder": lambda session, request: session.places.listing(request.query_params.get("place", "")),
     "mapping": _draft_mapping,
 }
@@ -294,8 +280,6 @@ ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {
     "undo": lambda session, body: session.go("undo"),
     "redo": lambda session, body: session.go("redo"),
     "restore": lambda session, body: session.go("restore", body["step"]),
-    "try": lambda session, body: session.attempt(body["id"], body["add"], body["units"]),
-    "keep": lambda session, body: session.keep(),
     "compensate": lambda session, body: session.compensate(body["calibration"], body["demodulator"]),
     "calibrate": lambda session, body: session.calibrate(),
     "cancel": lambda session, body: session.jobs.cancel(),

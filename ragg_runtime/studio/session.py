@@ -6,23 +6,21 @@ import threading
 import time
 import traceback
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
 from ragg_runtime import api
-from ragg_runtime.api import Added, Compensation, Held, Loaded
+from ragg_runtime.api import Compensation, Held, Loaded
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.progress import PASSES
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.instrument.instrument import EffectSetting
-from ragg_runtime.instrument.model_toml import add_effect, set_parameters
+from ragg_runtime.instrument.model_toml import set_parameters
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import Flight
-from ragg_runtime.model import derive
 from ragg_runtime.model.directory import HistoryStep, load_model_dir
 from ragg_runtime.studio.files import Places
 from ragg_runtime.studio.mapping import is_foreign
@@ -30,10 +28,9 @@ from ragg_runtime.studio.mapping import is_foreign
 T = TypeVar("T")
 # announces a part of some work: its name, and the samples that it goes through
 Part = Callable[[str, float], None]
-SERIES = 24  # series of a state that are remembered: of a day at 100 Hz each takes 40 MB
 
 NOTHING: Mapping[str, None] = MappingProxyType(
-    dict.fromkeys(("compared", "diagnosed", "held", "previous", "trial", "compensated"))
+    dict.fromkeys(("compared", "diagnosed", "held", "previous", "compensated"))
 )
 """What is known of another model or other flights."""
 
@@ -46,33 +43,13 @@ class SheetEdit(NamedTuple):
     fixed: bool
 
 
-class SeriesCache:
-    """Things that were made of a state, by name; the oldest are forgotten."""
-
-    def __init__(self) -> None:
-        self._series: dict[tuple[object, ...], Any] = {}
-        self._lock = threading.Lock()
-
-    def get(self, key: tuple[object, ...], make: Callable[[], T]) -> T:
-        """The value of ``key``, made if it is missing."""
-        series = self._series.get(key)
-        if series is None:
-            series = make()
-            with self._lock:
-                while len(self._series) >= SERIES:
-                    self._series.pop(next(iter(self._series)))
-                self._series[key] = series
-        return series
-
-
 @dataclass(frozen=True)
 class State:
     """What is open, and its results; ``None`` or empty where there is none yet.
 
     ``read``: the flights as they were read; ``cuts``: the segments (from, to, s) of each that are left out; ``kept``: how many at
     the end are kept for validation. ``compared``, ``diagnosed``: results for the other flights; ``held``: how their calibration
-    holds on those kept. ``previous``: the comparison before the last step; ``trial``: an own effect that is not in the model
-    yet; ``cache``: series made of these.
+    holds on those kept. ``previous``: the comparison before the last step.
     """
 
     loaded: Loaded | None = None
@@ -85,9 +62,7 @@ class State:
     diagnosed: Diagnosis | None = None
     held: Held | None = None
     previous: Comparison | None = None
-    trial: tuple[str, str, Mapping[str, str], Added] | None = None
     compensated: Compensation | None = None
-    cache: SeriesCache = field(default_factory=SeriesCache)
 
     def require(self, name: str) -> Any:
         """A result of the state by name; UserError if there is none yet."""
@@ -147,7 +122,7 @@ class Session:
         self.jobs.tell_change()
 
     def _forget(self, **changes: object) -> None:
-        self._put(**{**NOTHING, "cache": SeriesCache(), **changes})
+        self._put(**{**NOTHING, **changes})
 
     def _work(self, name: str, command: str, do: Callable[[State], Mapping[str, object]]) -> None:
         """Run something that takes as long as a command in the background, and put its result into the state."""
@@ -222,7 +197,7 @@ class Session:
             return
         if s.compared is None:
             part("calibrating and comparing", PASSES["compare"] * s.samples)
-            self._put(compared=api.compare(s.loaded, s.fitted), cache=SeriesCache())
+            self._put(compared=api.compare(s.loaded, s.fitted))
         compared = self.state.require("compared")
         if s.kept:
             part("validating", PASSES["compare"] * s.samples)
@@ -247,9 +222,8 @@ class Session:
         """Derive effects into the model, one after the other, and calibrate."""
         if not effects:
             raise UserError("no effect is chosen", remedy="tick one or several")
-        self._extend(self.state.model, effects)
+        m = self.state.model
 
-    def _extend(self, m: Loaded, effects: Sequence[str]) -> None:
         def work(part: Part) -> None:
             # the page keeps the old state until all is done, and sees the error fall
             s, extended = self.state, m
@@ -287,22 +261,6 @@ class Session:
             raise UserError(f"there is nothing to {action}")
         self._change(api.change(m, history[to].text, action, str(to)))
 
-    def attempt(self, effect: str, add: str, units: Mapping[str, str]) -> None:
-        """Try an effect of the user's own: derived and calibrated, but not kept."""
-        listed, flights = list_own(self.state.model, effect, add, units), self.state.fitted
-
-        def do(s: State) -> dict[str, object]:
-            return {"trial": (effect, add, dict(units), api.add(listed, effect, flights, save=False))}
-
-        self._work(f"trying {effect}", "add", do)
-
-    def keep(self) -> None:
-        """Keep what was tried as an effect of the model."""
-        if self.state.trial is None:
-            raise UserError("nothing was tried", remedy="try an expression first")
-        effect, add, units, _ = self.state.trial
-        self._extend(list_own(self.state.model, effect, add, units), [effect])
-
     def compensate(self, kind: str, demodulator: str) -> None:
         """Compensate the flights that are open."""
         self.state.require("compared")
@@ -325,16 +283,6 @@ class Session:
         if flight is not None and not 0 <= flight < len(self.state.read):
             raise UserError("there is no such flight", found=str(flight + 1))
         return self.state
-
-
-def list_own(m: Loaded, effect: str, add: str, units: Mapping[str, str]) -> Loaded:
-    """The model with an effect of one's own listed, ``add`` at the transducer (unit of each parameter), in memory alone."""
-    if effect in derive.list_known(m.instrument):
-        quoted, remedy = repr(effect[:80]), "choose another name"
-        raise UserError("an effect of this id exists already", found=quoted, remedy=remedy)
-    parameters = MappingProxyType({n: MappingProxyType({"unit": u}) for n, u in units.items()})
-    expression = MappingProxyType({"stage": "transducer", "add": add, "params": parameters})
-    return api.as_of(m, add_effect(m.directory.text, EffectSetting(effect, expression=expression)))
 
 
 # --- the history as branches ---------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""What the page shows, as JSON: results in the words and digits of the reports. No figure is computed here."""
+"""What the page shows, as JSON: results in the words and digits of the reports. Nothing is computed here."""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ragg_runtime import api
 from ragg_runtime.api import Loaded
@@ -25,17 +24,13 @@ from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
-from ragg_runtime.io.record import LEFT_OUT, WIDEST_SPIKE
+from ragg_runtime.io.record import LEFT_OUT
 from ragg_runtime.report import pages, panels
-from ragg_runtime.signals.derivative import runs
 from ragg_runtime.studio.session import Branches, State
 from ragg_runtime.wording import describe, describe_other, numbers
 from ragg_runtime.wording.sections import Section, Table
 
 Json = dict[str, Any]
-
-# marks of either kind on a timeline, the longest and the first: it has no more pixels for them
-MOST_MARKS = 300
 
 
 def describe_state(s: State) -> Json:
@@ -46,20 +41,25 @@ def describe_state(s: State) -> Json:
         "model": None if m is None else _show_model(m),
         "flights": show_flights(s),
         "unread": [] if s.flights else [str(p) for p in s.paths],
-        "banner": None if c is None else _show_banner(c, d),
+        "verdict": None if d is None else d.verdict,
+        "error": None if c is None else c.as_json()["error"],
+        "result": [] if c is None else show_sections(_describe_result(s, c, d)),
         "effects": [] if d is None else show_effects(d),
-        "untestable": [] if d is None else [_describe(d, n.effect) | {"why": n.why} for n in d.not_testable],
-        "unexplained": None if d is None else _show_unexplained(d),
-        "next_motion": [] if d is None else [describe.write_motion(p.as_json()) for p in d.next_motion],
         "parameters": None if c is None else show_sections(panels.describe_parameters(c.fitted)),
         "validation": None if s.held is None else _show_validation(s),
         "sheet": None if m is None else show_sheet(m.instrument),
         "history": None if m is None else _show_history(m),
-        "error_steps": [] if m is None or c is None else _show_steps(m, c),
         "compensated": None if s.compensated is None else _show_compensation(s),
-        "trial": None if s.trial is None else _show_trial(s),
         "before": s.previous is not None and c is not None,
     }
+
+
+def _describe_result(s: State, c: Comparison, d: Diagnosis | None) -> Sequence[Section]:
+    """The sections of the diagnosis; until it is made, those of the comparison."""
+    if d is None:
+        return describe.describe_comparison(c.as_json(), [x.name for x in s.fitted])
+    # the effects stand beside it, with their evidence
+    return [x for x in describe.describe_diagnosis(d.as_json()) if x.title != "Evidence"]
 
 
 def show_table(t: Table) -> Json:
@@ -69,7 +69,7 @@ def show_table(t: Table) -> Json:
 
 def show_sections(sections: Sequence[Section]) -> list[Json]:
     """Sections for the page, which shows them as they are."""
-    names = ("title", "sentences", "detail", "summary", "state")
+    names = ("title", "sentences", "code", "detail", "summary", "state")
     return [
         {n: getattr(s, n) for n in names} | {"table": {} if s.table is None else show_table(s.table)}
         for s in sections
@@ -150,9 +150,9 @@ def _show_history(m: Loaded) -> Json:
                 "action": s.action,
                 "effect": s.effect,
                 "time": s.time,
-                "before": describe.find_rms(s.before),
-                "after": describe.find_rms(s.after),
-                "holdout": describe.find_rms(s.after, "holdout"),
+                "before": numbers.number(describe.find_rms(s.before)),
+                "after": numbers.number(describe.find_rms(s.after)),
+                "holdout": numbers.number(describe.find_rms(s.after, "holdout")),
                 "flights": sorted(s.flights),
                 "present": n in present,
                 "kept": bool(s.text),
@@ -164,89 +164,36 @@ def _show_history(m: Loaded) -> Json:
     }
 
 
-def _show_steps(m: Loaded, c: Comparison) -> list[Json]:
-    """The error after every step of the present branch, and last that of the open flights."""
-    history = m.directory.history
-    bars = panels.list_error_steps(
-        [history[n].as_json() for n in Branches(history).path], c.calibrated.rms_Eo
-    )
-    return [{"label": b.label, "value": b.value, "kind": "step" if b.strong else "start"} for b in bars]
-
-
 # --- flights and results -------------------------------------------------------------------------------
 
 
 def show_flights(s: State) -> list[Json]:
-    """Every flight that is open; before it is compared, what a first look shows."""
-    entries: list[Json] = []
-    if not s.flights:  # they are being read
-        return entries
-    for n, (x, p, cuts) in enumerate(zip(s.flights, s.paths, s.cuts, strict=True)):
-        observations = []
-        if s.compared is not None:
-            c, position = s.result_for(n)
-            observations = [o for o in c.fitted.observations if o.flight == position]
-        valid = observations[0].record.valid if observations else x.valid
-        entries.append(
-            {
-                "name": x.name,
-                "path": str(p),
-                "samples": len(x),
-                "valid": int(x.valid.sum()),
-                "rate_Hz": x.rate,
-                "duration_s": x.duration,
-                "notes": list(x.notes),
-                "channels": list(x.channels),
-                "outputs": list(x.outputs),
-                "cuts": [list(c) for c in cuts],
-                "kept": n >= len(s.flights) - s.kept,
-                "parts": [
-                    {"name": o.output.name, "spin_Hz": abs(o.record.spin_frequency) * o.record.turning}
-                    for o in observations
-                ],
-                "missing": find_missing(valid, x.rate),
-            }
-        )
-    return entries
+    """Every flight that is open, with what was read."""
+    return [
+        {
+            "name": x.name,
+            "path": str(p),
+            "samples": len(x),
+            "valid": int(x.valid.sum()),
+            "rate_Hz": x.rate,
+            "duration_s": x.duration,
+            "notes": list(x.notes),
+            "channels": list(x.channels),
+            "outputs": list(x.outputs),
+            "cuts": [list(c) for c in cuts],
+            "kept": n >= len(s.flights) - s.kept,
+            "parts": _list_outputs(s, n),
+        }
+        for n, (x, p, cuts) in enumerate(zip(s.flights, s.paths, s.cuts, strict=False))
+    ]
 
 
-def find_missing(valid: NDArray[np.bool_], rate: float) -> Json:
-    """Stretches (from, to, s since the first sample) without usable samples, and instants of those too short for a gap."""
-    lacking = runs(~valid)
-    gaps = [x for x in lacking if x.stop - x.start > WIDEST_SPIKE]
-    longest = sorted(gaps, key=lambda x: x.start - x.stop)[:MOST_MARKS]
-    return {
-        "gaps": [[x.start / rate, x.stop / rate] for x in sorted(longest, key=lambda x: x.start)],
-        "alone": [x.start / rate for x in lacking if x.stop - x.start <= WIDEST_SPIKE][:MOST_MARKS],
-    }
-
-
-def _show_banner(c: Comparison, d: Diagnosis | None) -> Json:
-    waiting = Section(sentences=("Testing every effect of the catalogue …",), state="wait")
-    first = waiting if d is None else describe.describe_diagnosis(d.as_json())[0]
-    errors = c.as_json()
-    table = describe.describe_comparison(errors, [])[1].table
-    abouts = {
-        "nominal": "with the values of the test sheet",
-        "calibrated": "parameters fitted to these flights",
-        "holdout": "fitted on half of the blocks of time, scored on the rest",
-    }
-    return {
-        "state": first.state,
-        "verdict": None if d is None else d.verdict,
-        "sentences": first.sentences,
-        "errors": {k: _show_error(getattr(c, k)) | {"about": text} for k, text in abouts.items()},
-        "noise": {"rms_Eo": c.noise_floor, "text": numbers.number(c.noise_floor)},
-        "converged": c.converged,
-        "adequate": c.adequate,
-        "k_ggi": c.fitted.k_ggi,
-        "kind": c.fitted.observations[0].recorded.kind,
-        "table": {} if table is None else show_table(table),
-    }
-
-
-def _show_error(e: Any) -> Json:
-    return {"json": e.as_json(), "rms_Eo": e.rms_Eo, "text": numbers.number(e.rms_Eo)}
+def _list_outputs(s: State, flight: int) -> list[str]:
+    """The outputs of a flight that are compared."""
+    if s.compared is None:
+        return []
+    c, position = s.result_for(flight)
+    return [o.output.name for o in c.fitted.observations if o.flight == position]
 
 
 def _describe(d: Diagnosis, effect: str) -> Json:
@@ -261,8 +208,6 @@ def _describe(d: Diagnosis, effect: str) -> Json:
 def show_effects(d: Diagnosis) -> list[Json]:
     """The ranking, best first, each with its entry in the catalogue."""
     level = math.log(false_alarms.CATALOGUE / max(1, len(d.ranking)))
-    # what these would do can be predicted: their columns are in the R factors
-    linear = {e.id for e in d.fitted.model.candidates if e.kind in ("deterministic", "step")}
     entries: list[Json] = []
     for r in d.ranking:
         result: Any = r.as_json()
@@ -276,33 +221,14 @@ def show_effects(d: Diagnosis) -> list[Json]:
                 "p": numbers.probability(result["log10_p"]),
                 "probability": result["probability"],
                 "chance": describe.chance(result["probability"], result["log10_p"]),
-                "after_Eo": r.after.rms_Eo,
-                "holdout_Eo": r.after_holdout.rms_Eo,
-                "testable": r.test.rank > 0 and r.effect in linear,
+                "after": numbers.number(r.after.rms_Eo),
+                "holdout": numbers.number(r.after_holdout.rms_Eo),
                 "seen_from": [describe.write_size(s.as_json()) for s in d.sizes if s.effect == r.effect],
                 "values": [[describe.label_parameter(p), describe.format_value(p)] for p in best],
                 "indistinguishable": list(r.indistinguishable_from),
             }
         )
     return entries
-
-
-def _show_unexplained(d: Diagnosis) -> Json:
-    return {
-        "significant": d.remainder.significant,
-        "share": numbers.percent(d.remainder_share),
-        "p": numbers.probability(d.remainder.log_p / math.log(10.0)),
-        "terms": [
-            {
-                "label": describe.label_term(t),
-                "z": numbers.number(abs(float(str(t["z"])))),
-                "id": f"{t['harmonic']}|{t['term']}",
-            }
-            for t in d.terms()
-        ],
-        "expression": d.expression(),
-        "needs": d.needs(),
-    }
 
 
 def _show_validation(s: State) -> list[Json]:
@@ -318,15 +244,6 @@ def _show_compensation(s: State) -> Json:
         "calibration": c.result["calibration"],
         "demodulator": c.result["demodulator"]["name"],
         "sections": show_sections(describe_other.describe_compensation(c.as_json(), "")),
-    }
-
-
-def _show_trial(s: State) -> Json:
-    effect, _, _, a = s.require("trial")
-    effects = [e.id for e in s.model.model.effects]
-    return {
-        "id": effect,
-        "sections": show_sections(describe.describe_addition(a.as_json(), [*effects, effect])),
     }
 
 

@@ -38,6 +38,7 @@ def make_environment(
 
 Array = NDArray[np.float64]
 T = TypeVar("T")
+Role = Literal["residual", "envelope", "before", "noise"]
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,7 @@ class Curve:
     name: str
     x: Array
     y: Array
-    role: Literal["residual", "envelope", "before", "noise"] = "residual"
+    role: Role = "residual"
     kind: Literal["line", "steps", "band"] = "line"
     high: Array | None = None
     width: float = 1.2

@@ -109,7 +109,7 @@ def settled(client: httpx.Client, *, diagnosed: bool = True) -> dict[str, Any]:
     )
 
 
-def compared(client: httpx.Client, what: str = "banner") -> dict[str, Any]:
+def compared(client: httpx.Client, what: str = "error") -> dict[str, Any]:
     """The state once the flights are compared; the tests of the effects, which take most of the time, are cancelled."""
     wait_for(client, lambda s: bool(s[what]) or not s["status"]["job"])
     client.post("/api/do/cancel", json={})

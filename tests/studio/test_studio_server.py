@@ -15,7 +15,6 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import httpx
-import numpy as np
 import pyarrow.csv
 import pytest
 from serving import PATIENCE, Served, brief, compared, foreign, served, settled
@@ -26,36 +25,9 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.model.directory import HistoryStep, load_model_dir
 from ragg_runtime.studio import mapping, views
-from ragg_runtime.studio.series import HEAD, sample
 from ragg_runtime.studio.session import Branches
 from ragg_runtime.studio.views import mathml
 from ragg_runtime.wording import numbers
-
-
-def test_a_window_of_a_series_loses_no_extreme_and_no_gap() -> None:
-    n = 200_003
-    x = np.random.default_rng(3).normal(size=n)
-    x[77_777], x[123_456] = 50.0, -60.0
-    x[10_000:11_000] = np.nan
-    p = sample(5.0, 0.01, x)
-    windows = ((5.0, 2005.03, 700), (700.0, 1300.0, 300), (781.0, 784.0, 400), (0.0, 1e9, 100))
-    for first, last, points in windows:
-        data = p.window(first, last, points)
-        mark, count, start, step, kind = HEAD.unpack_from(data)
-        values = np.frombuffer(data, "<f4", offset=HEAD.size).reshape(1 + kind, count)
-        assert mark == b"RAGG"
-        assert count <= 8 * points
-        half = 0.5 * step if kind else 0.0
-        a, b = (
-            int(np.clip(np.round((t - 5.0) / 0.01), 0, n))
-            for t in (start - half + 0.005 * kind, start + (count - 1) * step + half + 0.005)
-        )
-        inside = x[a : b + 1].astype(np.float32)
-        assert np.nanmax(values) == np.nanmax(inside)
-        assert np.nanmin(values) == np.nanmin(inside)
-    assert struct.calcsize("<4sIddI") == HEAD.size == 28
-    gap = np.frombuffer(p.window(106.0, 114.0, 400), "<f4", offset=HEAD.size)
-    assert np.isnan(gap).all()
 
 
 def test_undo_and_redo_walk_along_a_branch() -> None:
@@ -323,45 +295,52 @@ def test_a_long_or_broken_body_is_refused(client: httpx.Client) -> None:
 
 def test_what_is_drawn_is_what_the_commands_compute(client: httpx.Client) -> None:
     state = settled(client)
-    assert state["banner"]["verdict"] == "missing-effect"
+    assert state["verdict"] == "missing-effect"
     best = state["effects"][0]["id"]
-    assert best in state["banner"]["sentences"][0]
-    preview = client.get("/api/preview", params={"effects": best}).json()
-    # a preview is linear; the figures of an effect as strong as this one are those of a fit with it in the model
-    assert preview["rms_Eo"] == pytest.approx(state["effects"][0]["after_Eo"], rel=1e-3)
-    assert preview["holdout_Eo"] == pytest.approx(state["effects"][0]["holdout_Eo"], rel=1e-3)
-    rms = {}
-    for what in ("residual", "left", "effect"):
-        data = client.get("/api/series", params={"what": what, "effects": best, "points": 20000}).content
-        mark, count, _, step, kind = struct.unpack_from("<4sIddI", data)
-        assert (mark, count, kind) == (b"RAGG", 960, 0)
-        assert step == pytest.approx(1 / 8)
-        rms[what] = float(np.sqrt(np.mean(np.frombuffer(data[28:], "<f4").astype(float) ** 2)))
-    assert rms["residual"] == pytest.approx(state["banner"]["errors"]["calibrated"]["rms_Eo"], rel=1e-5)
-    assert rms["left"] == pytest.approx(preview["rms_Eo"], rel=1e-5)
-    for what in ("correlations", "whiteness", "against:temperature"):
-        picture = client.get("/api/panel", params={"what": what})
-        assert picture.headers["content-type"] == "image/svg+xml"
+    assert best in state["result"][0]["sentences"][0]
+    rms = state["error"]["calibrated"]["rms_Eo"]
+    row = next(r for r in state["result"][1]["table"]["rows"] if r[0] == "current model")
+    assert row[1] == numbers.number(rms)
+    ask = {"from": 20.0, "to": 60.0, "fan": 1}
+    for what in (
+        "time",
+        "spectrum",
+        "channels",
+        "columns",
+        "correlations",
+        "whiteness",
+        "against:temperature",
+    ):
+        picture = client.get("/api/panel", params={"what": what, **ask})
+        assert picture.headers["content-type"] == "image/svg+xml", what
         assert picture.text.startswith("<svg ")
         assert "var(--" not in picture.text
-    assert client.get("/api/panel", params={"what": "against:nothing"}).status_code == 400
+    assert "models within" in client.get("/api/panel", params={"what": "time", **ask}).text
+    for wrong in (
+        {"what": "against:nothing"},
+        {"what": "nothing"},
+        {"from": "x"},
+        {"flight": 9},
+        {"to": 0.5},
+    ):
+        assert client.get("/api/panel", params=wrong).status_code == 400, wrong
     report = client.get("/api/take/diagnosis.html")
     assert report.headers["content-disposition"].startswith("attachment")
     assert best in report.text
 
 
 def test_a_stretch_is_left_out_and_taken_back(client: httpx.Client) -> None:
-    before = settled(client)["banner"]["errors"]["calibrated"]["rms_Eo"]
+    before = settled(client)["error"]["calibrated"]["rms_Eo"]
     for k, first, last in ((7, 1, 2), (0, 2, 1), (0, -1, 1e9)):
         body = {"flight": k, "from": first, "to": last}
         assert client.post("/api/do/leave", json=body).status_code == 400
     assert client.post("/api/do/leave", json={"flight": 0, "from": 0.0, "to": 30.0}).status_code == 202
     state = compared(client)
     assert state["flights"][0]["valid"] == 960 - 241
-    assert state["banner"]["errors"]["calibrated"]["rms_Eo"] != before
+    assert state["error"]["calibrated"]["rms_Eo"] != before
     assert any("left out by hand" in line for line in state["commands"])
     assert client.post("/api/do/leave", json={"flight": 0}).status_code == 202
-    assert compared(client)["banner"]["errors"]["calibrated"]["rms_Eo"] == before
+    assert compared(client)["error"]["calibrated"]["rms_Eo"] == before
 
 
 def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(client, folder) -> None:
@@ -369,17 +348,10 @@ def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(clien
     brief(second, 4000)
     assert client.post("/api/do/open", json={"flights": [str(demo), str(second)]}).status_code == 202
     both = compared(client)
-    drawn = {}
-    for what in ("fan", "residual"):
-        answer = client.get("/api/series", params={"what": what, "points": 20000}).content
-        _, n, _, _, kind = HEAD.unpack_from(answer)
-        drawn[what] = np.frombuffer(answer, "<f4", offset=HEAD.size).reshape(kind + 1, n)
-    inside = (drawn["fan"][0] < drawn["residual"]) & (drawn["residual"] < drawn["fan"][1])
-    assert np.nanmean(inside) > 0.9
     assert client.post("/api/do/validate", json={"flight": 0}).status_code == 202
     state = compared(client)
     assert [(f["name"], f["kept"]) for f in state["flights"]] == [("b", False), ("demo-flight", True)]
-    assert state["banner"]["errors"] != both["banner"]["errors"]
+    assert state["error"] != both["error"]
     assert any(line.endswith("demo-flight.parquet --frozen") for line in state["commands"])
     assert client.post("/api/do/validate", json={"flight": 0}).status_code == 400  # one is to be fitted
     row = next(r for r in state["sheet"]["rows"] if r["name"] == "K1")
@@ -387,8 +359,8 @@ def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(clien
     assert client.post("/api/do/edit", json={"values": {"K1": change}}).status_code == 202
     state = compared(client, "validation")
     assert "The calibration on b " in state["validation"][0]["sentences"][0]
-    residual = client.get("/api/series", params={"what": "residual", "flight": 1, "points": 20000}).content
-    assert struct.unpack_from("<4sI", residual)[1] == 960
+    kept = client.get("/api/panel", params={"what": "time", "flight": 1, "fan": 1})
+    assert "residual" in kept.text and "models within" not in kept.text
     instrument = load_model_dir(folder / "model").instrument
     assert instrument.fixed == {"K1"}
     m = api.load(folder / "model")

@@ -1,8 +1,8 @@
 // The page: tabs, keys, what the server is doing, and which view is open.
 //
-// Imports go down alone: app -> loop, model, files, apply -> effects, figures -> curves, drawings -> store, api, dom.
+// Imports go down alone: app -> loop, model, files, apply -> effects, figures -> store, api, dom.
 //   dom     elements, numbers, MathML                     api     what the server is asked; actions, and what went wrong
-//   store   what is known (server) and looked at (view)   curves, drawings  draw what they are given
+//   store   what is known (server) and looked at (view)
 import { applyView, takeView } from "./apply.js";
 import { ask, doing, events, Refused, trouble } from "./api.js";
 import { filesView } from "./files.js";
@@ -170,15 +170,12 @@ const HELP = [
   ["Space", "tick or untick the effect"],
   ["Enter", "on an effect: open or close what is known of it"],
   ["a", "derive and calibrate what is ticked"],
-  ["v, e, i, c", "V, Eo, inline, cross"],
   ["+, −", "zoom in and out"],
   ["[, ]", "move left and right"],
   ["0", "the whole flight"],
   ["f, o", "next flight, next output"],
   ["u, r", "undo, redo"],
   ["d", "light or dark"],
-  ["wheel", "zoom about the pointer; with Shift: move"],
-  ["drag", "choose a segment of time, a band of frequencies; double click: all"],
 ];
 
 export function help() {

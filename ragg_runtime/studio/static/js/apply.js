@@ -1,5 +1,5 @@
 // What a model is for: compensated channels with their band, and as files.
-import { fill, h, pictureNode, sectionNode, tableNode } from "./dom.js";
+import { fill, h, pictureNode, sectionNode } from "./dom.js";
 import { doing } from "./api.js";
 import { on, server } from "./store.js";
 
@@ -72,7 +72,7 @@ const FILES = [
 export function takeView(main) {
   const known = () => {
     const { state } = server;
-    const ready = { "diagnosis.html": state && state.effects.length, "diagnosis.json": state && state.effects.length, "compare.html": state && state.banner, "compare.json": state && state.banner, "steps.html": state && state.before && state.banner, "compensated.csv": state && state.compensated, "model.toml": state && state.model, "model-c.zip": state && state.model, "model-numpy.zip": state && state.model, "commands.sh": state && state.model };
+    const ready = { "diagnosis.html": state && state.effects.length, "diagnosis.json": state && state.effects.length, "compare.html": state && state.error, "compare.json": state && state.error, "steps.html": state && state.before && state.error, "compensated.csv": state && state.compensated, "model.toml": state && state.model, "model-c.zip": state && state.model, "model-numpy.zip": state && state.model, "commands.sh": state && state.model };
     fill(
       main,
       h("section.card", {}, h("h2", {}, "Downloads"),
@@ -81,7 +81,6 @@ export function takeView(main) {
         state && state.commands.length ? h("pre", { tabindex: "0" }, state.commands.join("\n")) : h("p.note", {}, "Open a model first."),
         state && state.commands.length ? h("div.row", {}, h("button", { type: "button", onclick: (e) => navigator.clipboard.writeText(state.commands.join("\n")).then(() => (e.target.textContent = "Copied")) }, "Copy")) : null,
         h("p.note", {}, "The view is stored in the URL, the steps in the model directory: closing the page loses nothing.")),
-      state && state.banner ? h("section.card", {}, h("h2", {}, "Errors"), tableNode(state.banner.table)) : null,
     );
   };
   known();

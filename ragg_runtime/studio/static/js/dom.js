@@ -36,7 +36,7 @@ export const tableNode = (t) =>
 
 /** A section as the server says it: title, sentences, a table; details are folded. */
 export function sectionNode(s) {
-  const body = [s.sentences.map((text) => h("p", {}, text)), s.table.rows ? tableNode(s.table) : null, s.table.note ? h("p.note", {}, s.table.note) : null];
+  const body = [s.sentences.map((text) => h("p", {}, text)), s.table.rows ? tableNode(s.table) : null, s.table.note ? h("p.note", {}, s.table.note) : null, s.code.length ? h("pre", { tabindex: "0" }, s.code.join("\n")) : null];
   return s.detail ? h("details", {}, h("summary", {}, s.title, s.summary ? h("small", {}, ` ${s.summary}`) : null), body) : h("div", {}, s.title ? h("h3", {}, s.title) : null, body);
 }
 

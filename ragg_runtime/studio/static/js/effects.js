@@ -1,17 +1,7 @@
-// The effects, best first: evidence, equation, physics, what absorbs them; a tick shows what it would do.
-import { ask, doing, Refused } from "./api.js";
-import { fill, h, keys, maths, number } from "./dom.js";
+// The effects, best first: evidence, equation, physics, what absorbs them; those that are ticked are added.
+import { doing } from "./api.js";
+import { fill, h, keys, maths } from "./dom.js";
 import { look, on, server, view } from "./store.js";
-
-let pointed = "";
-/** The effect under the pointer or the focus. */
-export const pointedAt = () => pointed;
-
-function point(id) {
-  if (pointed === id) return;
-  pointed = id;
-  look({ pointed: id }, true);
-}
 
 const tick = (id) => look({ ticked: view.ticked.includes(id) ? view.ticked.filter((e) => e !== id) : [...view.ticked, id] });
 const unfold = (id) => look({ open: view.open === id ? "" : id });
@@ -19,9 +9,8 @@ const unfold = (id) => look({ open: view.open === id ? "" : id });
 export function effectsPane(box) {
   const list = h("ol.ranking"), more = h("ol.ranking"), others = h("details.others", {}, h("summary"), more);
   const foot = h("div.foot");
-  const rest = h("div.rest");
   const lead = h("div.pane-head");
-  fill(box, lead, foot, list, others, rest);
+  fill(box, lead, foot, list, others);
 
   const known = () => {
     const { state } = server;
@@ -32,18 +21,15 @@ export function effectsPane(box) {
       h("h2", {}, "What may be missing"),
       effects.length ? h("p.note", {}, "Bar: probability among the effects of the catalogue. Right: error with the effect alone.") : null,
       inside.length ? h("p.inside", {}, "In the model: ", inside.map((e) => h("span.chip", { title: e.title }, e.id, h("button", { type: "button", "aria-label": `Take ${e.id} out of the model`, title: "Take it out of the model", onclick: () => doing("remove", { effect: e.id }) }, "×")))) : null,
-      !effects.length && state && state.banner ? state.status.job ? h("p.note", {}, "Testing every effect of the catalogue …") : h("button", { type: "button", onclick: () => doing("look") }, "Test every effect") : null,
+      !effects.length && state && state.error ? state.status.job ? h("p.note", {}, "Testing every effect of the catalogue …") : h("button", { type: "button", onclick: () => doing("look") }, "Test every effect") : null,
     );
     // what is hardly probable is folded, all of it once the model is adequate
-    const open = (e) => e.found || view.ticked.includes(e.id) || (e.significant && (e.probability ?? 1) >= 0.01 && state.banner.verdict !== "adequate");
+    const open = (e) => e.found || view.ticked.includes(e.id) || (e.significant && (e.probability ?? 1) >= 0.01 && state.verdict !== "adequate");
     const hidden = effects.filter((e) => !open(e));
     fill(list, effects.filter(open).map(row));
     fill(more, hidden.map(row));
     others.hidden = !hidden.length;
     others.firstChild.textContent = hidden.length === effects.length ? `No further effect needed; ${hidden.length} tested` : `${hidden.length} others, less probable`;
-    const untestable = state ? state.untestable : [];
-    fill(rest, untestable.length ? h("details", {}, h("summary", {}, `${untestable.length} effects are not testable on this record`), h("ul.silent", {}, untestable.map((e) => h("li", {}, h("b", {}, e.title || e.id), " ", h("code", {}, e.id), h("p", {}, e.why))))) : null,
-      state && state.next_motion.length ? h("details", { open: true }, h("summary", {}, "Next motion"), h("ul.silent", {}, state.next_motion.map((m) => h("li", {}, m)))) : null);
     marks();
     footer();
   };
@@ -51,12 +37,12 @@ export function effectsPane(box) {
   const row = (e) => {
     const meter = h("span.meter", { "aria-hidden": "true" }, h("span"));
     meter.firstChild.style.width = `${Math.round(100 * (e.probability ?? 0))}%`;
-    const check = h("input", { type: "checkbox", id: `tick-${e.id}`, checked: view.ticked.includes(e.id), disabled: !e.testable, onchange: () => tick(e.id), "aria-label": `${e.title || e.id}: predict the error` });
+    const check = h("input", { type: "checkbox", id: `tick-${e.id}`, checked: view.ticked.includes(e.id), onchange: () => tick(e.id), "aria-label": `add ${e.title || e.id}` });
     return h(
-      "li", { class: [e.found ? "found" : "", e.significant ? "" : "weak"].join(" "), "data-effect": e.id, onpointerenter: () => point(e.testable ? e.id : ""), onpointerleave: () => point(""), onfocusin: () => point(e.testable ? e.id : ""), onfocusout: () => point("") },
+      "li", { class: [e.found ? "found" : "", e.significant ? "" : "weak"].join(" "), "data-effect": e.id },
       check,
       h("button.title", { type: "button", "aria-expanded": "false", onclick: () => unfold(e.id) }, h("b", {}, e.title || e.id), h("code", {}, e.id), e.found ? h("em.badge", {}, "missing") : null),
-      h("span.after", { title: "error with this effect alone" }, e.after_Eo === null ? "–" : number(e.after_Eo), h("small", {}, " Eo")),
+      h("span.after", { title: "error with this effect alone" }, e.after, h("small", {}, " Eo")),
       h("span.evidence", { title: `p-value ${e.p}` }, meter, h("small", {}, e.chance)),
       h("div.about", { hidden: true }),
     );
@@ -67,7 +53,7 @@ export function effectsPane(box) {
     e.physics ? h("p.physics", {}, e.physics) : null,
     e.values.length ? h("table.values", {}, h("tbody", {}, e.values.map(([name, text]) => h("tr", {}, h("th", { scope: "row" }, name), h("td", {}, text))))) : null,
     h("dl.facts", {},
-      h("dt", {}, "alone"), h("dd", {}, `${number(e.after_Eo)} Eo, held out ${number(e.holdout_Eo)} Eo; p-value ${e.p}`),
+      h("dt", {}, "alone"), h("dd", {}, `${e.after} Eo, held out ${e.holdout} Eo; p-value ${e.p}`),
       e.indistinguishable.length ? [h("dt", {}, "indistinguishable from"), h("dd", {}, e.indistinguishable.map((t, k) => [k ? ", " : "", h("code", {}, t)]))] : null,
       e.seen_from.length ? [h("dt", {}, "detection limit"), h("dd", {}, e.seen_from.join("; "), " (3 σ)")] : null,
       e.channels && e.channels.length ? [h("dt", {}, "needs"), h("dd", {}, e.channels.join(", "))] : null,
@@ -88,18 +74,9 @@ export function effectsPane(box) {
   };
 
   const footer = () => {
-    const { state } = server;
-    const now = foreseen();
-    const ready = state && state.effects.length;
-    if (!ready) return foot.replaceChildren();
-    const n = view.ticked.length;
-    fill(
-      foot,
-      n && now
-        ? h("p.foreseen", { role: "status" }, h("span", {}, number(now.before_Eo)), " → ", h("b", {}, number(now.rms_Eo)), " Eo", h("small", {}, `held out ${number(now.holdout_Eo)}, noise ${number(now.noise_Eo)}`))
-        : h("p.foreseen.quiet", {}, "Tick an effect to predict the error."),
-      h("button.main", { type: "button", disabled: !n || Boolean(state.status.job), onclick: commit, title: "Derive and calibrate (a)" }, n > 1 ? `Derive ${n} effects and calibrate` : "Derive and calibrate"),
-    );
+    const { state } = server, n = view.ticked.length;
+    if (!state || !state.effects.length) return foot.replaceChildren();
+    fill(foot, h("button.main", { type: "button", disabled: !n || Boolean(state.status.job), onclick: commit, title: "Derive and calibrate (a)" }, n > 1 ? `Derive ${n} effects and calibrate` : n ? "Derive and calibrate" : "Tick an effect to add it"));
   };
 
   const commit = () => view.ticked.length && doing("add", { effects: view.ticked });
@@ -112,51 +89,17 @@ export function effectsPane(box) {
       if (next) next.focus();
     } else if (e.key === " " && at >= 0 && document.activeElement === items[at]) {
       const id = items[at].closest("li").dataset.effect;
-      if (!items[at].closest("li").querySelector("input").disabled) tick(id);
+      tick(id);
     } else if (e.key === "a") commit();
     else return false;
     return true;
   };
-  const off = [on("ticked open", marks), on("foreseen ticked", footer), keys(pressed)];
+  const off = [on("ticked open", marks), on("ticked", footer), keys(pressed)];
   return { known, gone: () => off.forEach((f) => f()) };
 }
 
-// What ticked effects would leave: asked at once, shown everywhere.
-
-let found = null;
-let asked = 0;
-
-/** The last answer for what is ticked, or null. */
-export const foreseen = () => found;
-
-async function again() {
-  const mine = ++asked;
-  const effects = view.ticked.join(",");
-  if (!effects || !server.state || !server.state.effects.length) {
-    found = null;
-    look({ foreseen: String(mine) }, true);
-    return;
-  }
-  const began = performance.now();
-  try {
-    const answer = await ask("preview", { effects });
-    if (mine !== asked) return;
-    found = answer;
-    document.documentElement.dataset.preview = (performance.now() - began).toFixed(1);
-  } catch (error) {
-    if (!(error instanceof Refused)) throw error;
-    found = null;
-  }
-  look({ foreseen: String(mine) }, true);
-}
-
-on("ticked", again);
 on("server", () => {
   // effects that are in the model now, or unknown, are ticked no longer
-  const ids = new Set((server.state ? server.state.effects : []).map((e) => e.id));
-  if (server.state && server.state.effects.length) {
-    const kept = view.ticked.filter((e) => ids.has(e));
-    if (kept.length !== view.ticked.length) look({ ticked: kept });
-    else if (view.ticked.length && !found) again();
-  } else if (server.state && server.state.banner && !server.state.effects.length && found) again();
+  const effects = server.state ? server.state.effects : [];
+  if (effects.length) look({ ticked: view.ticked.filter((id) => effects.some((e) => e.id === id)) });
 });

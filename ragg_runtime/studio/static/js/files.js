@@ -20,7 +20,7 @@ export function filesView(main) {
     }
   };
   const open = async (model, flights) => {
-    if (await doing("open", { model, flights })) look({ view: "loop", from: null, to: null, ticked: [], term: "", flight: 0 });
+    if (await doing("open", { model, flights })) look({ view: "loop", from: null, to: null, ticked: [], flight: 0 });
   };
 
   const draw = (found) => {
@@ -163,7 +163,7 @@ export async function mappingPane(box, path, trouble) {
 
   const asked = rows.filter((r) => r.asked), sure = rows.filter((r) => !r.asked);
   keep.textContent = known.kept ? "Replace the model’s mapping and open the flight" : "Save with the model and open the flight";
-  keep.onclick = async () => (await doing("map", { ...sent(), replace: known.kept })) && look({ view: "loop", from: null, to: null, ticked: [], term: "", flight: 0 });
+  keep.onclick = async () => (await doing("map", { ...sent(), replace: known.kept })) && look({ view: "loop", from: null, to: null, ticked: [], flight: 0 });
   box.hidden = false;
   fill(box, h("h2", { tabindex: "-1" }, `Columns of ${path.split("/").pop()}`),
     h("p.note", {}, asked.length ? "Only what the file does not say is asked. Units are never guessed." : "All columns recognised."),

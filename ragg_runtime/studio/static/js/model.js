@@ -8,14 +8,13 @@ export function parametersView(main) {
   const known = () => {
     const { state } = server;
     const p = state && state.parameters;
-    const key = JSON.stringify([p, p && state.next_motion]);
+    const key = JSON.stringify(p);
     if (key === shown) return; // what is unfolded stays so
     shown = key;
     if (!p) return void fill(main, h("p.empty-note", {}, "The parameters are known once a flight is compared."));
     fill(
       main,
       p.map((s) => h("section.card", {}, h("h2", {}, s.title), s.title.startsWith("Correlations") ? pictureNode("correlations", { flight: view.flight }) : null, sectionNode({ ...s, title: "", detail: s.title === "Every parameter" }))),
-      h("section.card", {}, h("h2", {}, "Next motion"), state.next_motion.length ? h("ul", {}, state.next_motion.map((m) => h("li", {}, m))) : h("p.note", {}, "No other motion is needed to separate effects.")),
     );
   };
   known();
@@ -127,7 +126,7 @@ export function historyView(main) {
         h("tbody", {}, [...history.steps].reverse().map((s) => h("tr", { class: s.present ? "" : "abandoned" },
           h("td", {}, String(s.n + 1)), h("td", {}, new Date(s.time).toLocaleString("sv")),
           h("th", { scope: "row" }, `${SAID[s.action] || s.action} `, s.action === "add" || s.action === "remove" ? h("code", {}, s.effect) : /^\d+$/.test(s.effect) ? `to the state after step ${Number(s.effect) + 1}` : s.effect, s.n === history.now ? h("em.badge", {}, "current") : null),
-          [s.before, s.after, s.holdout].map((x) => h("td.n", {}, x === null ? "–" : number(x))),
+          [s.before, s.after, s.holdout].map((x) => h("td.n", {}, x)),
           h("td", {}, s.flights.join(", ")),
           h("td.do", {},
             s.kept && s.n !== history.now ? h("button", { type: "button", disabled: busy, onclick: () => doing("restore", { step: s.n }), "aria-label": `Go back to the state after step ${s.n + 1}` }, "go back") : null)))))));

@@ -1,8 +1,8 @@
 // Two states: what the server knows (server), and what this page looks at (view), which is stored in the URL.
 const DEFAULTS = {
-  view: "loop", flight: 0, output: 0, from: null, to: null, unit: "Eo", ticked: [], open: "", term: "", low: null, high: null, fan: 0, theme: "",
+  view: "loop", flight: 0, output: 0, from: null, to: null, ticked: [], open: "", fan: 0, theme: "",
 };
-const NUMBERS = new Set(["flight", "output", "from", "to", "low", "high", "fan"]);
+const NUMBERS = new Set(["flight", "output", "from", "to", "fan"]);
 
 export const server = { state: null };
 export const view = { ...DEFAULTS };
