@@ -221,6 +221,13 @@ HELD = 1 / 3
 # steps of its resolution by which a column moves, in the median, from which repetition is not the resolution's doing
 COARSE = 8.0
 FEWEST = 8  # recorded values that are needed to see how they come
+# share of the values of a column joined by lines that must follow each other at the same number of samples
+REGULAR = 0.99
+
+STRAIGHT = 1e-3
+"""Second difference, over the usual one, below which three samples lie on one line: digits that were written make
+less, and of recorded values one in a thousand bends so little."""
+
 # pairs of neighbours on either side, at least, that tell how often a column repeats a value there
 BESIDE = 32
 
@@ -263,7 +270,7 @@ def leave_out_repeated(flight: Flight) -> Flight:
         names = [n for n in sensor if n in columns and n not in slower]
         lost = _find_lost_packets([columns[n] for n in names], valid)
         if lost.any():
-            repeated += [(n, _Repeated(lost)) for n in names]
+            repeated += [(n, _Repeated("stuck", lost)) for n in names]
             columns |= {n: bridge_gaps(columns[n], valid & ~lost, smooth=True) for n in names}
             valid &= ~lost
             lacking |= lost & (sensor is ANGULAR_RATE)
@@ -299,15 +306,18 @@ def _take_recorded_rate(flight: Flight) -> Flight:
     spacing = int(max((r.every for r in slower), default=0))
     if not slower or not len(kept) or np.any((kept - kept[0]) % spacing):
         return flight
-    text = f"the motion is recorded every {spacing / flight.rate:.4g} s and repeated in between; the record is used at that rate"
+    text = f"the motion is recorded every {spacing / flight.rate:.4g} s and {slower[0].how} in between; the record is used at that rate"
     part = flight.part(slice(int(kept[0]) % spacing, None, spacing))
     return derive_acceleration(replace(part, valid=_find_full(part))).flagged([Flag(tuple(names), text)])
 
 
 @dataclass(frozen=True)
 class _Repeated:
-    """Samples (N,) that repeat others: throughout, as it is recorded ``every`` so many samples, or (0) in places."""
+    """Samples (N,) that repeat others: ``repeated`` or ``joined by straight lines``, recorded ``every`` so many samples, or in places
+    ``stuck`` or ``interpolated``.
+    """
 
+    how: str
     left_out: Mask
     every: float = 0.0
 
@@ -327,9 +337,16 @@ def _find_repeated(x: Array, present: Mask, turning: bool) -> _Repeated | None:
     held = np.sum(equal) >= HELD * np.sum(pairs) and not coarse
     if held and max(r.stop + 1 - r.start for r in runs(equal)) < HELD * len(x):
         kept = present & ~np.r_[False, equal]
-        return _Repeated(present & ~kept, float(np.median(np.diff(np.flatnonzero(kept)))))
-    stuck = _find_stuck(x, present, equal, step or 0.0, turning)
-    return _Repeated(stuck) if stuck.any() else None
+        return _Repeated("repeated", present & ~kept, float(np.median(np.diff(np.flatnonzero(kept)))))
+    bend = _find_bends(x, present, 2)
+    if not turning and (joined := _find_joined(present, bend)) is not None:
+        return joined  # the angle of a disc is a line
+    filled = stuck = _find_stuck(x, present, equal, step or 0.0, turning)
+    if not (turning or coarse):
+        fourth = _find_bends(x, present, 4)
+        filled = stuck | _find_curves(x, bend, step or 0.0, 1) | _find_curves(x, fourth, step or 0.0, 3)
+    repeated = _Repeated("stuck" if np.array_equal(filled, stuck) else "interpolated", filled)
+    return repeated if repeated.left_out.any() else None
 
 
 def _find_lost_packets(axes: Sequence[Array], present: Mask) -> Mask:
@@ -346,6 +363,17 @@ def _find_lost_packets(axes: Sequence[Array], present: Mask) -> Mask:
         if len(present) * np.prod(alone) < RARE_ZEROS and np.mean(together) < HELD:
             lost |= together
     return lost
+
+
+def _find_joined(present: Mask, bend: Array) -> _Repeated | None:
+    """Values recorded every so many samples, and joined by straight lines: by the second differences (N - 2,), NaN at gaps."""
+    recorded = np.flatnonzero(bend > STRAIGHT * np.sqrt(np.mean(np.nan_to_num(bend) ** 2))) + 1
+    spacing = int(np.median(np.diff(recorded))) if len(recorded) >= FEWEST else 1
+    first = recorded[len(recorded) // 2] if spacing > 1 else 0
+    kept = np.arange(len(present)) % spacing == first % spacing
+    if spacing < 2 or np.mean(kept[recorded]) < REGULAR:
+        return None
+    return _Repeated("joined by straight lines", present & ~kept, float(spacing))
 
 
 def _find_stuck(x: Array, present: Mask, equal: Mask, step: float, turning: bool) -> Mask:
@@ -384,6 +412,39 @@ def _find_stuck(x: Array, present: Mask, equal: Mask, step: float, turning: bool
     return stuck
 
 
+def _find_bends(x: Array, present: Mask, order: int) -> Array:
+    """(N - order,): sizes of the differences of an order, NaN where a sample lacks."""
+    whole = np.convolve(present, np.ones(order + 1), "valid") > order
+    return np.where(whole, np.abs(np.diff(x, order)), np.nan)
+
+
+def _find_curves(x: Array, bend: Array, step: float, degree: int) -> Mask:
+    """(N,): samples on a line between others, or on a cubic as splines have, in a column that bends far more: gaps that were filled.
+
+    ``bend`` are its differences of the next ``degree``, which such curves do not have.
+    """
+    filled = np.zeros(len(x), dtype=np.bool_)
+    resolution = 2**degree * step  # what rounding makes of them at most
+    rough = bend[bend > resolution]
+    finest = max(STRAIGHT * float(np.median(rough)) if len(rough) else 0.0, resolution)
+    if np.mean(bend <= finest) > HELD:  # a table's ramps, or what is read seldom and unevenly: made of lines
+        return filled
+    # where a curve without noise bends the other way one sample is on a line, in single precision two by chance
+    for run in runs(bend <= finest, degree + 2):
+        first, last = run.start, run.stop + degree
+        near = bend[max(first - LOCAL, 0) : last + LOCAL]
+        usual = float(np.median(near[near > finest])) if np.any(near > finest) else np.inf
+        along = np.linspace(-1.0, 1.0, last - first + 1)
+        off = np.abs(x[first : last + 1] - np.polyval(np.polyfit(along, x[first : last + 1], degree), along))
+        if np.max(off) <= finest < np.ptp(x[first : last + 1]) / COARSE:
+            # fourth differences of a slow column are those of its digits: as small as any thereabouts
+            least = np.min(near[near > finest], initial=np.inf)
+            digits = float(np.spacing(8 * np.max(np.abs(x))) if degree == 1 else least)
+            bent = max(float(np.max(bend[run])), resolution, digits)
+            filled[first + 1 : last] |= len(x) * (bent / usual) ** (run.stop - run.start) < RARE
+    return filled
+
+
 def _find_lost(x: Array, present: Mask, stuck: Mask) -> Mask:
     """(N,): single samples of values that come again and again, zero among them: readings that did not arrive."""
     lost = np.zeros(len(x), dtype=np.bool_)
@@ -414,12 +475,16 @@ def _make_flags(repeated: Sequence[tuple[str, _Repeated]], flight: Flight) -> li
 
 def _describe(r: _Repeated, flight: Flight) -> str:
     if r.every:
-        return f"recorded every {r.every / flight.rate:.4g} s and repeated in between; only recorded values are used"
+        return f"recorded every {r.every / flight.rate:.4g} s and {r.how} in between; only recorded values are used"
     samples, places = np.flatnonzero(r.left_out), runs(r.left_out)
+    filled = r.how == "interpolated"
     if max(x.stop - x.start for x in places) <= WIDEST_SPIKE:
         where = ", ".join(f"{t:.6g}" for t in flight.time[samples[:3]]) + " ..." * (len(samples) > 3)
-        lost = f"repeated, or zero, at {count(len(samples), 'sample')} (t = {where} s)"
+        lost = f"{'interpolated' if filled else 'repeated'}, or zero, at {count(len(samples), 'sample')} (t = {where} s)"
         return f"{lost}: readings that did not arrive? not used"
-    segments = (f"{x.stop - x.start} equal samples from {flight.time[x.start]:.5g} s" for x in places[:3])
+    segments = (
+        f"{x.stop - x.start} {'equal ' * (not filled)}samples from {flight.time[x.start]:.5g} s"
+        for x in places[:3]
+    )
     more = f" and {len(places) - 3} times more" if len(places) > 3 else ""
-    return f"the value is stuck: {', '.join(segments)}{more}, unlike noise; {len(samples)} samples not used"
+    return f"the value is {r.how}: {', '.join(segments)}{more}, unlike noise; {len(samples)} samples not used"

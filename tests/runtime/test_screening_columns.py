@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
@@ -34,14 +35,17 @@ def screened(x: np.ndarray, name: str = "G_out") -> Flight:
 
 
 @pytest.mark.parametrize(("every", "first"), [(2, 0), (160, 1)])
-def test_values_between_the_recorded_ones_are_not_used(every: int, first: int) -> None:
+@pytest.mark.parametrize("how", ["repeated", "joined by straight lines"])
+def test_values_between_the_recorded_ones_are_not_used(every: int, first: int, how: str) -> None:
     k = np.arange(first, N, every)
     x = SMOOTH[np.maximum((np.arange(N) - first) // every * every + first, 0)]
+    if how != "repeated":
+        x = np.round(np.interp(np.arange(N), k, SMOOTH[k]), 7)
     flight = screened(x)
     present = np.flatnonzero(np.isfinite(flight.outputs["G_out"]))
     assert set(present[1:-1]) <= set(k) and len(present) >= len(k) - 1
     assert flight.notes == (
-        f"G_out: recorded every {every / 16:.4g} s and repeated in between; only recorded values are used",
+        f"G_out: recorded every {every / 16:.4g} s and {how} in between; only recorded values are used",
     )
 
 
@@ -185,16 +189,22 @@ def test_readings_that_did_not_arrive_are_left_out() -> None:
         flight = leave_out_repeated(Flight(TIME, dict(zip(SPECIFIC_FORCE, motion, strict=True)), {}))
         assert np.flatnonzero(~flight.valid).tolist() == at.tolist()
         assert at is not lost or "samples (t = 0.5625" in flight.flags[0].reason
-    # two within as few samples as tell the usual, a part that is held at half the rate
+    # two within as few samples as tell the usual, a part that is held at half the rate, a gap that was filled
     x, held = SMOOTH + 0.1 * NOISE, np.r_[100, 101, 130, 900, 3101:4001:2]
     x[held] = x[held - 1 - (held == 101)]
     x[[500, 3000, 3001]] = 0.0
     x[1000:3000:400] = 0.7  # a code within the range
+    x[4999:5051] = np.linspace(x[4999], x[5050], 52).round(9)
+    kept, gap = np.r_[5900:6000, 6040:6140], np.arange(6000, 6040)
+    x[gap] = CubicSpline(kept, x[kept])(gap).round(9)
     flight = leave_out_repeated(Flight(TIME, {"a_y": x}, {}))
-    lost = np.r_[500, 1000:3000:400, 3000, 3001]
+    lost = np.r_[500, 1000:3000:400, 3000, 3001, 5000:5050, gap]
     assert np.array_equal(np.flatnonzero(~flight.valid), np.union1d(held, lost))
     coarse = np.round(rng.standard_normal((3, N)))
-    for x in (coarse, 400 * coarse + np.arange(N) % 3 * 100):  # of the second no neighbours are equal
+    knots = np.r_[0, np.sort(rng.random(90)) * 599, 600]
+    ramps = [np.interp(TIME, knots, rng.random(92)).round(9) for _ in "xyz"]
+    ramps[0] = np.sin(np.pi / 4 * np.arange(N))  # planned, without noise
+    for x in (coarse, 400 * coarse + np.arange(N) % 3 * 100, ramps):  # of the second no neighbours are equal
         assert leave_out_repeated(Flight(TIME, dict(zip(SPECIFIC_FORCE, x, strict=True)), {})).valid.all()
 
 
