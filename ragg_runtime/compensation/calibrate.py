@@ -279,12 +279,12 @@ def _parse_saved(e: Mapping[str, Any], m: Loaded, refuse: Callable[..., UserErro
             expected=f"{form}, effects {', '.join(effects) or 'none'}",
         )
     columns, places = zip(*list_base_columns(model, instrument), strict=True)
-    names = [(c.name, c.accelerometer) for c in columns]
-    scales = {(x["name"], x["accelerometer"]): float(x["scale"]) for x in e["fitted"]}
-    gone = [name for name, _ in scales.keys() - {*names}]
-    if gone:
-        what = "the saved calibration names a parameter that the model does not fit"
-        raise refuse(what, found=min(gone))
+    if [(c.name, c.accelerometer) for c in columns] != [(x["name"], x["accelerometer"]) for x in e["fitted"]]:
+        raise refuse("other parameters are fitted than when the calibration was saved")
+    R = np.zeros((len(columns), len(columns)))
+    R[np.triu_indices(len(R))] = np.concatenate(e["square_root_information"])
+    if not np.min(np.abs(np.diag(R))) > LEAST:
+        raise ValueError("the square root of the information is singular")
     saved = Saved(
         time=str(e["time"]),
         converged=bool(e["converged"]),
@@ -293,40 +293,16 @@ def _parse_saved(e: Mapping[str, Any], m: Loaded, refuse: Callable[..., UserErro
         sheet=e["sheet"],
         columns=columns,
         index=np.array(places, dtype=np.intp),
-        information=_rescale(e["square_root_information"], scales, columns),
+        information=R * [c.scale / float(x["scale"]) for c, x in zip(columns, e["fitted"], strict=True)],
         validity={name: (float(low), float(high)) for name, (low, high) in e["validity"].items()},
         flights=dict(e["flights"]),
         error=dict(e["error"]),
     )
     nominal = make_vector(model, instrument)
-    fixed = np.setdiff1d(
-        np.arange(len(nominal)), [k for name, k in zip(names, places, strict=True) if name in scales]
-    )
+    fixed = np.setdiff1d(np.arange(len(nominal)), places)
     if not np.array_equal(saved.p[fixed], nominal[fixed]):
         what = "model.toml was changed since the calibration was saved: values that are not fitted differ"
         raise refuse(what, found=f"a calibration made {saved.time}")
     if not scale_factor(model, saved.p) > 0.0:
         raise refuse("the saved calibration has no positive scale factor")
     return saved
-
-
-def _rescale(
-    upper: list[list[float]], scales: Mapping[tuple[str, int | None], float], columns: tuple[Column, ...]
-) -> Array:
-    """The root of the information in the scales of the present columns, from the rows of its ``upper`` triangle in saved ``scales``.
-
-    A parameter that was not fitted then has the sheet's prior.
-    """
-    R, labels = np.zeros((len(scales), len(scales))), list(scales)
-    R[np.triu_indices(len(scales))] = np.concatenate(upper)
-    if not np.min(np.abs(np.diag(R)), initial=np.inf) > LEAST:
-        raise ValueError("the square root of the information is singular")
-    rows, sheet = np.zeros((len(scales), len(columns))), np.zeros((len(columns), len(columns)))
-    for n, c in enumerate(columns):
-        if (name := (c.name, c.accelerometer)) in scales:
-            rows[:, n] = R[:, labels.index(name)] * (c.scale / scales[name])
-        else:
-            sheet[n, n] = 1.0
-    if sheet.any() or np.tril(rows, -1).any():
-        rows = np.asarray(np.linalg.qr(np.vstack([rows, sheet]), mode="r"))
-    return rows
