@@ -223,11 +223,14 @@ def test_numpy_alone_gives_the_same(extended: tuple[Path, Path, Path], tmp_path:
     found, k_ggi = expected(model, flight)
     # the derivative at the cut's end is another
     assert np.max(np.abs(G[:1900] - found[:1900])) / k_ggi < 1e-6
-    for x in ("motion", "derived_motion"):
-        motion = (tmp_path / "n" / "test" / f"{x}.csv").read_text()
-        done = subprocess.run(command, input=motion, capture_output=True, text=True, check=True)
-        gap = np.abs(answer(done.stdout.encode())[1] - answered(tmp_path / "n", x))
-        assert np.max(gap) / k_ggi < 1e-6
+    motion, derived = (
+        (tmp_path / "n" / "test" / f"{x}.csv").read_text() for x in ("motion", "derived_motion")
+    )
+    done = subprocess.run(command, input=motion, capture_output=True, text=True, check=True)
+    gap = np.abs(answer(done.stdout.encode())[1] - answered(tmp_path / "n", "motion"))
+    assert np.max(gap) / k_ggi < 1e-6
+    done = subprocess.run(command, input=derived, capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and "is not derived from spin_angle here" in done.stderr
 
 
 _ALONE = """

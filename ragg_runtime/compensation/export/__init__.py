@@ -303,11 +303,8 @@ def write_values(c: Contents, name: str) -> str:
 
 def make_numpy(c: Contents) -> Files:
     """A folder that needs only NumPy."""
-    slopes = {
-        "short": [weights(WINDOW, k).tolist() for k in range(WINDOW // 2 + 1)],
-        "long": wide_weights().tolist(),
-        "spin": {"seconds": SPIN_WINDOW, "most": HALO, "degrees": DEGREES},
-    }
+    short = [weights(WINDOW, k).tolist() for k in range(WINDOW // 2 + 1)]
+    slopes = {"short": short, "long": wide_weights().tolist()}
     package = resources.files(__name__)
     return {
         **make_json(c),

@@ -5,18 +5,16 @@ omegadot, where it is not there, is derived from omega; without an encoder's col
 2 pi spin_frequency t, from t = 0 or from the first row, by "angle_origin" of model.json.
 """
 
-import itertools
 import json
 import sys
 from pathlib import Path
 
 import chain
 import numpy as np
-from numpy.polynomial import chebyshev
 
 MODEL = json.loads((Path(__file__).parent / "model.json").read_text("utf-8"))
 SLOPES = json.loads((Path(__file__).parent / "derivative.json").read_text("utf-8"))
-SHORT, LONG, SPIN = np.array(SLOPES["short"]), np.array(SLOPES["long"]), SLOPES["spin"]
+SHORT, LONG = np.array(SLOPES["short"]), np.array(SLOPES["long"])
 PARAMETERS = np.concatenate([q["values"] for q in MODEL["parameters"]])
 OMEGADOT = [f"omegadot_{axis}" for axis in "xyz"]
 
@@ -51,7 +49,7 @@ def read_input(x, o, encoder, columns, t):
     """One series (N,) that the model reads: an entry of MODEL["inputs"], for an output."""
     if x["column"] == "disc":
         if encoder is not None:
-            return spin(encoder, x["derivative"], t)
+            fail(f"the rate of the disc is not derived from {o['spin_angle']} here; use the C program")
         return np.full(len(t), 2 * np.pi * o["spin_frequency"] if x["derivative"] == 1 else 0.0)
     name = x["column"]
     if name not in columns and not name.startswith("Gamma_"):
@@ -86,47 +84,6 @@ def acceleration(omega, t):
     if len(omega) > 2 * reach:
         slope[reach : len(omega) - reach] = np.correlate(omega - omega[0], LONG, "valid") * rate_of(t)
     return slope
-
-
-def spin(angle, order, t):
-    """Rate (order 1) or acceleration (2) of an encoder's angle, by polynomials through the samples around each."""
-    rate, shortest = rate_of(t), SPIN["degrees"][0]
-    half = min(max(round(SPIN["seconds"] * rate), shortest), SPIN["most"], (len(t) - 1) // 2)
-    if 2 * half < shortest:
-        fail("too few rows for the rate of a disc")
-    steps = np.diff(angle)
-    steps -= 2 * np.pi * np.rint(steps / (2 * np.pi))
-    steady = np.mean(steps)
-    x = np.concatenate([[0.0], np.cumsum(steps - steady)])
-    degree, slope = best_degree(x, half), np.empty(len(x))
-    slope[half : len(x) - half] = np.correlate(x, polynomial_weights(half, 0, order, degree), "valid")
-    for k in range(half):
-        slope[k] = polynomial_weights(half, k - half, order, degree) @ x[: 2 * half + 1]
-        slope[len(x) - 1 - k] = polynomial_weights(half, half - k, order, degree) @ x[-2 * half - 1 :]
-    return (slope + steady) * rate if order == 1 else slope * rate**2
-
-
-def best_degree(x, half):
-    """The degree with the least expected error of the second derivative: see ragg_runtime/signals/derivative.py."""
-    degrees = [d for d in SPIN["degrees"] if d < 2 * half]
-    if len(x) < 2 * (2 * half + 1) or len(degrees) < 2:
-        return SPIN["degrees"][0]
-    curvatures = [polynomial_weights(half, 0, 2, d) for d in degrees]
-    residual = -polynomial_weights(half, 0, 0, degrees[-1])
-    residual[half] += 1.0
-    kernels = [*(b - a for a, b in itertools.pairwise(curvatures)), residual]
-    gains = np.array([w @ w for w in kernels])
-    squares = np.array([np.sum(np.correlate(x, w, "valid") ** 2) for w in kernels])
-    noise = np.maximum.accumulate((squares / gains)[::-1])[::-1]
-    grows = 2 * noise[1:] * gains[:-1] - squares[:-1]
-    return degrees[int(np.argmin(np.cumsum([0.0, *grows])))]
-
-
-def polynomial_weights(half, at, order, degree):
-    """Weights of 2 half + 1 samples for the derivative, of this order, at one, counted from the middle."""
-    through = np.linalg.pinv(chebyshev.chebvander(np.arange(-half, half + 1) / half, degree))
-    at_sample = [chebyshev.chebval(at / half, chebyshev.chebder(e, order)) for e in np.eye(degree + 1)]
-    return np.array(at_sample) @ through / half**order
 
 
 def disc_angle(t, f):
