@@ -216,21 +216,11 @@ def _propose_outputs(rows: Rows) -> Iterator[ColumnMistake]:
     yield ColumnMistake(f"the sign of {what} is reversed", f"multiply {what} by -1", _mix(-one))
     for text, remedy, factor in _list_units(rows, what, names[0], "G"):
         yield ColumnMistake(text, remedy, _mix(factor * one))
-    for order in _list_orders(len(names)):
-        swapped = [k for k, was in enumerate(order) if was != k]
-        text = f"the order of {', '.join(names)} is {', '.join(names[k] for k in order)}"
-        if len(swapped) == 2:
-            text = f"{names[swapped[0]]} and {names[swapped[1]]} are exchanged"
-        yield ColumnMistake(text, "exchange the names of the columns", _mix(one[list(order)]), len(swapped))
-
-
-def _list_orders(count: int) -> Iterator[tuple[int, ...]]:
-    """Orders in which voltages may be listed by mistake: any of up to four, of more those with two exchanged."""
-    straight = tuple(range(count))
-    if count <= 4:
-        yield from (order for order in permutations(straight) if order != straight)
-    else:
-        yield from (tuple({i: j, j: i}.get(k, k) for k in straight) for i, j in combinations(straight, 2))
+    for i, j in combinations(range(len(names)), 2):
+        swapped = one.copy()
+        swapped[[i, j]] = one[[j, i]]
+        text = f"{names[i]} and {names[j]} are exchanged"
+        yield ColumnMistake(text, "exchange the names of the columns", _mix(swapped), 2)
 
 
 # by which people define the channels otherwise: (Gamma_xx - Gamma_yy)/2, Gamma_yy - Gamma_xx, 2 Gamma_xy, ...
