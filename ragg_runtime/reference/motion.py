@@ -97,15 +97,6 @@ class RecordedSignal:
     time: Array
     samples: Array
 
-    def __post_init__(self) -> None:
-        if self.time.ndim != 1 or self.time.shape != self.samples.shape or self.time.size < 6:
-            raise UserError(
-                "a recorded signal needs at least six instants and as many samples",
-                found=f"shapes {self.time.shape} and {self.samples.shape}",
-            )
-        if not (np.all(np.isfinite([self.time, self.samples])) and np.all(np.diff(self.time) > 0)):
-            raise UserError("a recorded signal must be finite, at increasing times")
-
     @cached_property
     def _pieces(self) -> tuple[Array, Array]:
         """Knots (n + 1,) and coefficients (6, n); the spline repeats its end knots, and those pieces are empty."""

@@ -274,20 +274,17 @@ def test_saturation_and_quantisation() -> None:
         (lambda: run({"time-offset": {"delta_t": [1, 2]}}), "one number in s"),
         (lambda: run({"time-offset": {"delta_t": np.nan}}), "one number in s"),
         (lambda: run({"vibration-rectification": {"P_xx": 1.0, "P_xy": 2.0}}), "positive semidefinite"),
-        (lambda: run({"saturation": {"V_max": -1.0}}), "positive"),
-        (lambda: run({"imu-saturation": {"a_max": -1.0}}), "must be positive"),
-        (lambda: run({"quantisation": {"q": -1.0}}), "negative"),
+        (lambda: run({"lag": {"tau": 1.0}}), "tau .* is out of range"),
+        (lambda: run({"imu-saturation": {"a_max": -1.0}}), "a_max .* is out of range"),
+        (lambda: run({"quantisation": {"q": -1.0}}), "q .* is out of range"),
         (lambda: run({"thermal-bias": {"dK0_dT": 1e-6}}), "temperature"),
         (lambda: run({"self-gradient": {"G_xx_pitch": 1e-6}}), "pitch"),
         (lambda: PointMass(1.0, [0, 0, 0]).difference(np.zeros(1), np.ones((3, 1))), "sits on"),
         (lambda: RECORDED(np.array([49.9, 60.0])), "does not cover"),
-        (lambda: RecordedSignal(np.arange(3.0), np.zeros(3)), ""),
-        (lambda: RecordedSignal(np.array([0.0, 1, 2, 3, 5, 4]), np.zeros(6)), ""),
-        (lambda: RecordedSignal(np.arange(6.0), np.array([0, 1, 2, 3, 4, np.nan])), ""),
     ],
 )
 def test_what_cannot_be_is_refused(asked, message: str) -> None:
-    with pytest.raises(UserError, match=message or None):
+    with pytest.raises(UserError, match=message):
         asked()
 
 

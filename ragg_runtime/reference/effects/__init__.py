@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,6 +27,7 @@ class InjectedParameter:
 
     ``unit``: SI; m/s^2 is the unit of specific force, so 1/(m/s^2)^2 is the paper's g/g^3. ``changes``: what of an accelerometer
     changes by it (K1: as a share) in proportion to a channel, to ``time``, or from an instant (``step``) on: ``by``.
+    ``positive``: not below zero, and not zero unless that is neutral; ``most``: the largest that the simulation is good for.
     """
 
     unit: str
@@ -33,23 +35,30 @@ class InjectedParameter:
     neutral: float = 0.0
     changes: str = ""
     by: str = ""
+    positive: bool = False
+    most: float = np.inf
 
 
-def _each(unit: str, *names: str, changes: str = "", by: str = "") -> dict[str, InjectedParameter]:
-    return {name: InjectedParameter(unit, True, changes=changes, by=by) for name in names}
+def _each(unit: str, *names: str, **fields: Any) -> dict[str, InjectedParameter]:
+    return {name: InjectedParameter(unit, True, **fields) for name in names}
 
 
-def _shared(
-    unit: str, *names: str, neutral: float = 0.0, changes: str = "", by: str = ""
-) -> dict[str, InjectedParameter]:
-    return {name: InjectedParameter(unit, False, neutral, changes, by) for name in names}
+def _shared(unit: str, *names: str, **fields: Any) -> dict[str, InjectedParameter]:
+    return {name: InjectedParameter(unit, **fields) for name in names}
+
+
+def _size(unit: str, name: str, neutral: float) -> dict[str, InjectedParameter]:
+    return _shared(unit, name, neutral=neutral, positive=True)
 
 
 _TRACELESS = ("xx", "xy", "xz", "yy", "yz")
 _PAIRS = ("xy", "xz", "yx", "yz", "zx", "zy")
 _TURNING = tuple(f"G_{c}_{axis}" for axis in ("roll", "pitch") for c in _TRACELESS)
 _PLACE = _shared("m", "x", "y", "z", neutral=1.0)
-_RESONANCE = _shared("Hz", "f_0", neutral=5.0) | _shared("1", "Q", neutral=10.0)
+_RESONANCE = _size("Hz", "f_0", 5.0) | _size("1", "Q", 10.0)
+LONGEST_LAG = (
+    0.03  # time constant (s) up to which the quadrature of a lag is good to 1e-10 for forces below 2.5 Hz
+)
 
 CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     "cubic-input": _each("1/(m/s^2)^2", "K_iii"),
@@ -59,7 +68,7 @@ CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     "odd-quadratic": _each("1/(m/s^2)", "K_oq"),
     # The reference's own form is Eq. 52, with the second-order terms along the measured axes: kappa = 1.
     "second-order-misalignment": _shared("1", "kappa", neutral=1.0),
-    "lag": _each("s", "tau"),
+    "lag": _each("s", "tau", positive=True, most=LONGEST_LAG),
     "pendulum-angular": _each("(m/s^2)/(rad/s^2)", "K_pa"),
     "thermal-bias": _each("(m/s^2)/K", "dK0_dT", changes="K0", by="temperature"),
     "thermal-scale": _each("1/K", "dK1_dT", changes="K1", by="temperature"),
@@ -88,7 +97,7 @@ CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     "clock-drift": _shared("1", "epsilon"),
     "bias-step": _each("m/s^2", "dK0", changes="K0", by="step") | _shared("s", "t_step"),
     "output-gain-step": _shared("1", "g", changes="K1", by="step") | _shared("s", "t_step"),
-    "output-filter": _shared("s^2", "b"),
+    "output-filter": _shared("s^2", "b", positive=True),
     "thermal-lag": _each("(m/s^2)/(K/s)", "dK0_dTdot", changes="K0", by="d_temperature")
     | _each("1/(K/s)", "dK1_dTdot", changes="K1", by="d_temperature"),
     "anisoinertia": _each("(m/s^2)/(rad/s)^2", "K_ip"),
@@ -113,21 +122,21 @@ CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     "spin-servo": _shared("s^2", "c"),
     "bearing-run-out": _shared("m", *(f"{a}_{k}{n}" for n in (1, 2) for k in "xyz" for a in "cs")),
     "adc-nonlinearity": _each("m/s^2", "h"),
-    "second-order-loop": _each("s^2", "b"),
+    "second-order-loop": _each("s^2", "b", positive=True),
     "mount-resonance": _shared("1", "share") | _RESONANCE,
     "accelerometer-resonance": _each("s", "u") | _each("s^2", "v") | _RESONANCE,
-    "bias-hysteresis": _each("m/s^2", "h_i", "h_o", "h_p") | _shared("m/s^2", "w", neutral=0.01),
-    "mount-hysteresis": _each("rad", "e_yx", "e_yz", "e_zx") | _shared("m/s^2", "w", neutral=0.01),
-    "bias-creep": _each("1", "c_i", "c_o", "c_p") | _each("m/s^2", "c_0") | _shared("s", "tau", neutral=20.0),
+    "bias-hysteresis": _each("m/s^2", "h_i", "h_o", "h_p") | _size("m/s^2", "w", 0.01),
+    "mount-hysteresis": _each("rad", "e_yx", "e_yz", "e_zx") | _size("m/s^2", "w", 0.01),
+    "bias-creep": _each("1", "c_i", "c_o", "c_p") | _each("m/s^2", "c_0") | _size("s", "tau", 20.0),
     "mount-creep": _each("rad/(m/s^2)", "e_yx", "e_yz", "e_zx")
     | _each("rad", "e_y0", "e_z0")
-    | _shared("s", "tau", neutral=20.0),
-    "thermal-hysteresis": _each("m/s^2", "h") | _shared("K", "w", neutral=0.1),
+    | _size("s", "tau", 20.0),
+    "thermal-hysteresis": _each("m/s^2", "h") | _size("K", "w", 0.1),
     "inner-temperature": _each("1/(m/s^2)", "b")
     | _each("1/(m/s^2)^2", "s")
     | _each("m/s^2", "b_0")
     | _each("1", "s_0")
-    | _shared("s", "tau", neutral=40.0),
+    | _size("s", "tau", 40.0),
     "output-curve": _shared("1/V", "c_2") | _shared("1/V^2", "c_3"),
     "thermal-misalignment": _each("rad/K", "dvartheta_y_dT", changes="vartheta_y", by="temperature"),
     "thermal-second-order": _each("1/(m/s^2)/K", "dK2_dT", changes="K2", by="temperature"),
@@ -136,7 +145,7 @@ CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     | _shared("s", "t_step"),
     "second-order-drift": _each("1/(m/s^2)/s", "dK2_dt", changes="K2", by="time"),
     "second-order-step": _each("1/(m/s^2)", "dK2", changes="K2", by="step") | _shared("s", "t_step"),
-    "imu-filter": _shared("s^2", "b_a", "b_w"),
+    "imu-filter": _shared("s^2", "b_a", "b_w", positive=True),
     "imu-skew": _shared("s", "delta_x", "delta_y"),
     "gyro-misalignment": _shared("rad", *(f"m_{p}" for p in _PAIRS)),
     "imu-acceleration-quadratic": _shared("1/(m/s^2)", "q_x", "q_y"),
@@ -147,10 +156,9 @@ CATALOGUE: Mapping[str, Mapping[str, InjectedParameter]] = {
     | _shared("1/s^2/kg", *(f"F_{c}" for c in _TRACELESS)),
     "balancing-loop": _each("1/A", "dK1_di", changes="K1", by="balance_current")
     | _each("1/(m/s^2)/A", "dK2_di", changes="K2", by="second_order_current"),
-    "saturation": _shared("V", "V_max", neutral=np.inf),
-    "imu-saturation": _shared("m/s^2", "a_max", neutral=np.inf)
-    | _shared("rad/s", "omega_max", neutral=np.inf),
-    "quantisation": _shared("V", "q"),
+    "saturation": _size("V", "V_max", np.inf),
+    "imu-saturation": _size("m/s^2", "a_max", np.inf) | _size("rad/s", "omega_max", np.inf),
+    "quantisation": _shared("V", "q", positive=True),
 }
 """Every effect and its parameters."""
 
@@ -213,5 +221,13 @@ def _check_values(
             f"wrong value for {name} of the effect {effect!r}",
             found=raw,
             expected=f"{numbers if parameter.per_accelerometer else 'one number'} in {parameter.unit}",
+        )
+    above = value > 0 if parameter.neutral else value >= 0
+    if parameter.positive and not np.all(above & (value <= parameter.most)):
+        raise UserError(
+            f"{name} of the effect {effect!r} is out of range",
+            found=f"{value.tolist()} {parameter.unit}",
+            expected=f"{'above' if parameter.neutral else 'at least'} 0"
+            + (f", at most {parameter.most:g}" if np.isfinite(parameter.most) else ""),
         )
     return value

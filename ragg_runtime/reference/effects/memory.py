@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from scipy import signal
 from scipy.interpolate import make_interp_spline
 
-from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects import Injected, Values
 from ragg_runtime.reference.motion import Signal
 
@@ -22,10 +21,8 @@ OVER = 8  # instants between two samples at which voltages are known before they
 
 
 def oscillator(values: Values) -> tuple[float, float]:
-    """(d, b) of 1 + d s + b s^2, s and s^2; UserError if it is no resonance."""
+    """(d, b) of 1 + d s + b s^2, s and s^2."""
     f_0, Q = float(values["f_0"]), float(values["Q"])
-    if not (f_0 > 0 and Q > 0):
-        raise UserError("f_0 and Q of a resonance must be positive", found=f"{f_0:g} Hz, Q = {Q:g}")
     return 1 / (2 * np.pi * f_0 * Q), 1 / (2 * np.pi * f_0) ** 2
 
 
@@ -90,18 +87,18 @@ def list_memories(
     """
     fine = np.linspace(time[0], time[-1], OVER * (len(time) - 1) + 1)
     series: dict[str, Array] = {}
+    taus = {e: float(values["tau"]) for e, values in effects.items() if "tau" in values}
     for effect in (e for e in (*SLIPPING, *CREEPING) if e in effects):
         for j, f in enumerate(forces(fine)):
             for n, x in enumerate(f):
-                slips = effect in SLIPPING
                 series[friction(effect, j, n)] = (
-                    _slip(x, float(effects[effect]["w"])) if slips else _relax(x, _tau(effects, effect), fine)
+                    _relax(x, taus[effect], fine) if effect in taus else _slip(x, float(effects[effect]["w"]))
                 )
     if "inner-temperature" in effects:
         for j, i in enumerate(currents(fine)):
-            series[heat(j)] = _relax(i**2, _tau(effects, "inner-temperature"), fine)
-    for effect in (e for e in (*CREEPING, "inner-temperature") if e in effects):
-        series[former(effect)] = np.exp((fine[0] - fine) / _tau(effects, effect))
+            series[heat(j)] = _relax(i**2, taus["inner-temperature"], fine)
+    for effect, tau in taus.items():
+        series[former(effect)] = np.exp((fine[0] - fine) / tau)
     if "thermal-hysteresis" in effects:
         series[CYCLE] = _slip(auxiliaries["temperature"](fine), float(effects["thermal-hysteresis"]["w"]))
     return {name: partial(_at, fine, x) for name, x in series.items()}
@@ -109,13 +106,6 @@ def list_memories(
 
 def _at(fine: Array, x: Array, time: Array) -> Array:
     return np.asarray(np.interp(time, fine, x))
-
-
-def _tau(effects: Injected, effect: str) -> float:
-    tau = float(effects[effect]["tau"])
-    if not tau > 0:
-        raise UserError(f"tau of {effect} must be positive", found=f"{tau:g} s")
-    return tau
 
 
 def _relax(x: Array, tau: float, time: Array) -> Array:
@@ -126,8 +116,6 @@ def _relax(x: Array, tau: float, time: Array) -> Array:
 
 def _slip(force: Array, w: float) -> Array:
     """Friction (N,), over its greatest size: a spring that slips where the force has moved it by w."""
-    if not w > 0:
-        raise UserError("w of a hysteresis must be positive", found=f"{w:g}")
     deflection, state = np.zeros_like(force), 0.0
     for n, step in enumerate(np.diff(force), 1):
         state = min(max(state + step / w, -1.0), 1.0)

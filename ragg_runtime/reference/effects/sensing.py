@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects import Injected, Values
 from ragg_runtime.reference.effects.memory import recoil
 from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE, averaging
@@ -109,10 +108,6 @@ def _clip(sensed: MotionState, effects: Injected) -> MotionState:
     if not ends:
         return sensed
     a_max, omega_max = float(ends["a_max"]), float(ends["omega_max"])
-    if min(a_max, omega_max) <= 0:
-        raise UserError(
-            "the range of imu-saturation must be positive", found=f"{a_max:g} m/s^2, {omega_max:g} rad/s"
-        )
     a, omega = np.clip(sensed.a, -a_max, a_max), np.clip(sensed.omega, -omega_max, omega_max)
     # a gyroscope at the end of its range is constant
     return MotionState(a, omega, np.where(np.abs(sensed.omega) > omega_max, 0.0, sensed.omegadot))
@@ -133,14 +128,9 @@ def record_output(G_out: Array, effects: Injected) -> Array:
     if bent := effects.get("output-curve"):
         G_out = _reading(G_out, float(bent["c_2"]), float(bent["c_3"]))
     if limit := effects.get("saturation"):
-        if limit["V_max"] <= 0:
-            raise UserError("V_max of saturation must be positive", found=f"{limit['V_max']:g} V")
         G_out = np.clip(G_out, -limit["V_max"], limit["V_max"])
-    if steps := effects.get("quantisation"):
-        if steps["q"] < 0:
-            raise UserError("q of quantisation must not be negative", found=f"{steps['q']:g} V")
-        if steps["q"] > 0:
-            G_out = steps["q"] * np.rint(G_out / steps["q"])
+    if (steps := effects.get("quantisation")) and steps["q"] > 0:
+        G_out = steps["q"] * np.rint(G_out / steps["q"])
     return G_out
 
 
