@@ -7,7 +7,6 @@ Table V is ``ragg_runtime.reference.scenario.table_v``. Where the paper leaves a
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -112,63 +111,31 @@ DENSITIES: tuple[tuple[str, int, Printed], ...] = (
 
 # --- the printed numbers beside ours -------------------------------------------------------------------
 
-Range = tuple[float, float]
-
 
 @dataclass(frozen=True)
 class PrintedEntry:
-    """One printed number beside ours, in the printed unit (the mean of several runs, ``spread`` their least and greatest).
-
-    ``verdict``: ``agrees``; ``open input``: the number hangs on something that the paper does not state, and the printed one is
-    within its reach; ``unexplained``: neither. ``reason`` is empty only where the numbers agree.
-    """
+    """A printed number beside ours, in the printed unit (the mean of several runs, ``spread`` their least and greatest)."""
 
     quantity: str
     printed: Printed
     ours: float
-    spread: Range | None
-    verdict: str
-    reason: str
+    spread: tuple[float, float] | None = None
 
-
-def judge(
-    quantity: str,
-    printed: Printed,
-    ours: float,
-    *,
-    spread: Range | None = None,
-    reach: Range | None = None,
-    open_input: str = "",
-    unexplained: str = "",
-) -> PrintedEntry:
-    """Compare, by the same rule for every number.
-
-    ``spread``: least and greatest of several runs, a printed number between them agrees. ``reach``: the same over an
-    input that the paper leaves open. ``open_input``, ``unexplained``: the reason to give in either case.
-    """
-    inside, within = (r is not None and r[0] <= printed.value <= r[1] for r in (spread, reach))
-    if inside or printed.matches(ours):
-        return PrintedEntry(quantity, printed, ours, spread, "agrees", "")
-    verdict, reason = ("open input", open_input) if within else ("unexplained", unexplained)
-    return PrintedEntry(quantity, printed, ours, spread, verdict, reason)
+    @property
+    def agrees(self) -> bool:
+        """Whether ours has the printed digits or order of magnitude, or the printed number lies between our runs."""
+        inside = self.spread is not None and self.spread[0] <= self.printed.value <= self.spread[1]
+        return inside or self.printed.matches(self.ours)
 
 
 @dataclass(frozen=True)
 class Experiment:
-    """An experiment: its title, settings, and the printed numbers beside ours."""
+    """An experiment: its title, settings, the printed numbers beside ours, and why some differ."""
 
     title: str
     settings: Mapping[str, str]
     rows: tuple[PrintedEntry, ...]
-
-    @property
-    def reasons(self) -> dict[str, list[str]]:
-        """Each reason once, with the quantities that it is for."""
-        quantities: dict[str, list[str]] = {}
-        for r in self.rows:
-            if r.reason:
-                quantities.setdefault(f"({r.verdict}) {r.reason}", []).append(r.quantity)
-        return quantities
+    remarks: tuple[str, ...] = ()
 
 
 def _round(value: float) -> str:
@@ -178,6 +145,5 @@ def _round(value: float) -> str:
 
 def write_page(experiments: Sequence[Experiment]) -> str:
     """The page of some experiments, as Markdown."""
-    counts = Counter(row.verdict for e in experiments for row in e.rows)
     page = make_environment("ragg_runtime.experiments", {"digits": _round}).get_template("page.md.j2")
-    return page.render(experiments=experiments, counts=counts)
+    return page.render(experiments=experiments, rows=[row for e in experiments for row in e.rows])

@@ -53,37 +53,35 @@ class Demodulated(NamedTuple):
     valid: slice
 
 
-def demodulate(
-    G_out: Array, phi: Array, rate: float, k_ggi: float, *, attenuation: float = ATTENUATION
-) -> Demodulated:
+def demodulate(G_out: Array, phi: Array, rate: float, k_ggi: float) -> Demodulated:
     """Inline and cross channels of an output before demodulation, or of a residual of it, (N,) V.
 
     ``phi``: the disc angle at the same instants, (N,) rad, evenly spaced in time at ``rate``, Hz. ``k_ggi``: sum of k_VI K1 R, V per
-    s^-2 (in SI; 4.54e-4 V/Eo is 4.54e5). ``attenuation``: of the low-pass's stop band, dB.
+    s^-2 (in SI; 4.54e-4 V/Eo is 4.54e5).
     """
-    taps = low_pass(rate, attenuation=attenuation)
+    taps = low_pass(rate)
     inline = convolve(4 * G_out * np.sin(2 * phi), taps) / k_ggi
     cross = -convolve(2 * G_out * np.cos(2 * phi), taps) / k_ggi
     half = taps.size // 2
     return Demodulated(inline, cross, slice(half, G_out.size - half))
 
 
-def low_pass(rate: float, *, cutoff: float = CUTOFF, attenuation: float = ATTENUATION) -> Array:
+def low_pass(rate: float, *, cutoff: float = CUTOFF) -> Array:
     """Linear-phase FIR low-pass of odd length, unit gain at zero frequency (Kaiser window).
 
     Samples of one function of time, whatever the rate: channels that were made at one and thinned out to another have
-    passed the same filter. ``rate``, ``cutoff``: Hz; ``attenuation``: dB.
+    passed the same filter. ``rate``, ``cutoff``: Hz.
     """
     from scipy.signal import kaiser_beta  # slow to import
 
     if not 0 < cutoff - WIDTH / 2 < cutoff + WIDTH / 2 < rate / 2 < np.inf:
         raise _refuse(rate, cutoff)
     # Kaiser's rule (1974) for the transition
-    length = int(np.ceil((attenuation - 7.95) / 2.285 / (np.pi * WIDTH / (REFERENCE / 2)) + 1))
+    length = int(np.ceil((ATTENUATION - 7.95) / 2.285 / (np.pi * WIDTH / (REFERENCE / 2)) + 1))
     half = (length // 2) / REFERENCE
     reach = int(half * rate * (1 + 1e-12))
     t = np.arange(-reach, reach + 1) / rate
-    window = scipy.special.i0(kaiser_beta(attenuation) * np.sqrt(np.clip(1 - (t / half) ** 2, 0.0, None)))
+    window = scipy.special.i0(kaiser_beta(ATTENUATION) * np.sqrt(np.clip(1 - (t / half) ** 2, 0.0, None)))
     taps = np.sinc(2 * cutoff * t) * window
     return np.asarray(taps / np.sum(taps), dtype=np.float64)
 

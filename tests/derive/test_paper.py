@@ -337,13 +337,12 @@ def test_analytical_error_is_second_order_coefficients_times_angles() -> None:
     assert np.abs(find_error("analytical", run_regular(table_v().replace(**zero)))).max() < 1e-8
 
 
-def test_the_page_counts_the_verdicts_of_all_printed_numbers(third_a, third_b, third_c) -> None:
+def test_the_page_counts_the_printed_numbers_that_agree(third_a, third_b, third_c) -> None:
     text = write_page([third_a, third_b, third_c])
-    assert "Of 41 printed numbers, **15 agree**, **19 depend on an input" in " ".join(text.split())
+    assert "Of 41 printed numbers **15 agree**" in " ".join(text.split())
     for row in third_c.rows:
         assert f"| {row.quantity} | {row.printed.text} |" in text
 
 
 def test_the_command_prints_the_page_of_one(third_b: Experiment) -> None:
     assert CliRunner().invoke(main, ["dynamic"]).stdout == write_page([third_b])
-    assert all(r.reason or r.verdict == "agrees" for r in third_b.rows)
