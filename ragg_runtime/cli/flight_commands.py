@@ -12,10 +12,10 @@ from ragg_runtime.base.errors import UserError, printable
 from ragg_runtime.base.files import write_bytes, write_text
 from ragg_runtime.cli.shared import (
     PLACE,
+    RESULT,
     Command,
     Finite,
     Later,
-    OutputFile,
     command_line,
     conclude,
     find_wanted,
@@ -157,7 +157,7 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
               help="Separate effects, or calibrate what the channels need.")  # fmt: skip
 @click.option("--criterion", type=click.Choice(["A", "D"]), default="A", show_default=True,
               help="calibration: A: least mean variance of the channels; D: least volume.")  # fmt: skip
-@click.option("--run-sheet", type=OutputFile(), metavar="FILE.md",
+@click.option("--run-sheet", type=RESULT, metavar="FILE.md",
               help="calibration: instructions for the crew.")  # fmt: skip
 @mapping_option
 def next_motion(
@@ -326,7 +326,7 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
     help="Use the workers of a Dask cluster. Its scheduler can run code on this machine: trusted addresses only.",
 )
 @click.option("--resume", type=PLACE, metavar="FILE", help="Results file to continue.")
-@click.option("--table", "table_file", type=OutputFile(records=True), metavar="FILE.parquet",
+@click.option("--table", "table_file", type=RESULT, metavar="FILE.parquet",
               help="Write a table with a row for each flight.")  # fmt: skip
 @mapping_option
 def survey(model_dir: Path, flights: Sequence[Path], table_file: str | None, **options: Any) -> None:

@@ -69,7 +69,6 @@ def cli() -> None:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point: never a traceback for bad input."""
-    hold_streams()
     try:
         for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
             os.environ.setdefault(name, "1")  # before NumPy is imported: its threads would turn idly
@@ -106,22 +105,5 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def describe_refusal(error: OSError) -> str:
     """An error of the system, and its place, in one line."""
-    try:
-        os.getcwd()
-    except OSError:
-        return "the current folder no longer exists: change to another"
     places = [os.fsdecode(p) for p in (error.filename, error.filename2) if isinstance(p, (str, bytes))]
-    what = error.strerror or (str(error).splitlines() or [type(error).__name__])[0]
-    return one_line(": ".join([" and ".join(places), what] if places else [what]))
-
-
-def hold_streams() -> None:
-    """Put the null device in place of closed standard streams: the next file would be taken for one of them."""
-    for number, flags in ((0, os.O_RDONLY), (1, os.O_WRONLY), (2, os.O_WRONLY)):
-        try:
-            os.fstat(number)
-        except OSError:
-            os.open(os.devnull, flags)  # the lowest free number, which is this one
-    # Python has none where it found them closed. Without stdout commands refuse (cli.shared).
-    if sys.stderr is None:
-        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+    return one_line(": ".join([*([" and ".join(places)] if places else []), error.strerror or str(error)]))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -39,9 +38,6 @@ if TYPE_CHECKING:
     from ragg_runtime.report import pages
 else:
     api, io, pages, simulator = map(Later, ("api", "io", "report.pages", "simulate"))
-
-
-STUDIO_NEEDS = ("starlette", "uvicorn", "latex2mathml")  # modules that the extra studio brings
 
 
 @click.command(cls=Command, json=False, hidden=True)
@@ -297,13 +293,6 @@ def studio(model_dir: Path | None, flights: Sequence[Path], port: int, no_browse
     Prints the address and serves until interrupted, to this machine only. Files are read and written below the
     folders of MODEL and FLIGHT (without them: the working directory) and nowhere else.
     """
-    absent = [name for name in STUDIO_NEEDS if importlib.util.find_spec(name) is None]
-    if absent:
-        raise UserError(
-            "the studio needs packages that are not installed",
-            found=f"no {', '.join(absent)}",
-            remedy="pip install 'ragg[studio]'",
-        )
     from ragg_runtime.studio.serve import serve
 
     serve(model_dir, flights, port, click.echo, browser=not no_browser)

@@ -43,19 +43,7 @@ else:
 STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 # commands that show the notes on the flights; the others, which come after, count them
 SHOW_NOTES = ("compare", "diagnose")
-# a model directory's own files, and the folder with the derived code
-OF_A_MODEL = ("model.toml", "history.json", "calibration.json", "mapping.toml", "generated")
-
-
-class OutputFile(click.Path):
-    """The type of an option that names a file to write; only one for ``records`` may replace a record."""
-
-    def __init__(self, *, records: bool = False) -> None:
-        super().__init__(path_type=str)
-        self.records = records
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        return os.fsdecode(super().convert(value, param, ctx))
+OF_A_MODEL = ("model.toml", "history.json", "calibration.json", "mapping.toml")  # files of a model directory
 
 
 class Finite(click.FloatRange):
@@ -68,7 +56,8 @@ class Finite(click.FloatRange):
         return number
 
 
-PLACE = click.Path(path_type=Path)
+PLACE = click.Path(path_type=Path)  # of what is read
+RESULT = click.Path(path_type=str, writable=True)  # of what is written
 model_argument = click.argument("model_dir", type=PLACE)
 flights_argument = click.argument("flights", type=PLACE, nargs=-1, required=True)
 mapping_option = click.option(
@@ -78,9 +67,8 @@ frozen_option = click.option("--frozen", is_flag=True, help="The same as --calib
 
 
 def output_option(metavar: str, text: str, *, required: bool = True) -> Callable[[Any], Any]:
-    """``-o``, a record to write."""
-    kind = OutputFile(records=True)
-    return click.option("-o", "--output", type=kind, required=required, metavar=metavar, help=text)
+    """``-o``, a file to write."""
+    return click.option("-o", "--output", type=RESULT, required=required, metavar=metavar, help=text)
 
 
 series_option = output_option("OUT", "File to write (.csv, .parquet, .nc).")
@@ -93,10 +81,10 @@ limit_option = click.option(
     "mass=0.5m, speed=0.1m/s: of a body beside the instrument.",
 )
 _JSON = click.Option(
-    ["--json", "json_file"], type=OutputFile(), metavar="FILE", help="Write the result as JSON (- is stdout)."
+    ["--json", "json_file"], type=RESULT, metavar="FILE", help="Write the result as JSON (- is stdout)."
 )
 _REPORT = click.Option(
-    ["--report", "report_file"], type=OutputFile(), metavar="FILE.html", help="Write a self-contained report."
+    ["--report", "report_file"], type=RESULT, metavar="FILE.html", help="Write a self-contained report."
 )
 _VERBOSE = click.Option(["-v", "--verbose"], is_flag=True, help="Show all details.")
 
@@ -112,31 +100,32 @@ class Command(click.Command):
         self.params += [_JSON] * json + [_REPORT] * report + [_VERBOSE] * json
 
     def invoke(self, ctx: click.Context) -> Any:
-        if sys.stdout is None:
-            raise UserError(
-                "the result cannot be written: stdout is closed", remedy="to discard it: > /dev/null"
-            )
         self._check_outputs(ctx)
         options = ("json_file", "report_file", "verbose")
         ctx.meta[__name__] = {k: ctx.params.pop(k, None) for k in options}
         return super().invoke(ctx)
 
     def _check_outputs(self, ctx: click.Context) -> None:
-        """UserError if a file cannot be written, is read as well, is written twice, or is a model's or a record."""
-        inputs: list[Path] = []
-        outputs: list[tuple[Path, bool]] = []
+        """UserError if a file cannot be written, or is one that the command reads."""
+        read: set[str] = set()
+        written: list[str] = []
         for p in self.params:
             value = ctx.params.get(p.name or "")
-            if isinstance(p.type, OutputFile) and value is not None and value not in STDOUT:
-                outputs.append((Path(value), p.type.records))
-            elif isinstance(p.type, click.Path) and value is not None:
-                inputs += map(Path, value if p.multiple or p.nargs == -1 else (value,))
-        checked: list[Path] = []
-        for path, records in outputs:
-            _check_output(path, inputs, records=records)
-            if any(_is_same(path, x) for x in checked):
-                raise UserError("two results would be written to one file", where=path)
-            checked.append(path)
+            if isinstance(p.type, click.Path) and value is not None and value not in STDOUT:
+                paths = value if isinstance(value, tuple) else (value,)
+                if p.type.writable:
+                    written += paths
+                else:
+                    read |= set(map(os.path.realpath, paths))
+        for path in map(Path, written):
+            place = Path(os.path.realpath(path))
+            if str(place) in read or (str(place.parent) in read and place.name in OF_A_MODEL):
+                raise UserError(
+                    "the result would overwrite what the command reads",
+                    where=path,
+                    remedy="name another file",
+                )
+            check_writable(path)
 
 
 def find_wanted(option: str) -> Any:
@@ -243,31 +232,3 @@ def next_command(
     words = [verb, str(model_dir), *([effect] if effect else []), *files]
     words += [] if mapping is None else ["--map", str(mapping)]
     return one_line(f"ragg {shlex.join(words)}{'' if files else ' FLIGHT'}")
-
-
-def _check_output(path: Path, inputs: Sequence[Path], *, records: bool) -> None:
-    """UserError if ``path`` cannot be written, or is of a model directory, of ``inputs``, or, not for ``records``, a record."""
-    from ragg_runtime.io.files import ENDINGS, find_ending  # only here: to import it takes a while
-
-    place, ending = Path(os.path.realpath(path)), find_ending(path.name)
-    over = ""
-    if any(_is_same(path, x) for x in inputs):
-        over = "what the command reads"
-    elif any(_is_of_model(x) and (x.exists() or not records) for x in (place, *place.parents)):
-        over = "a file of a model directory"
-    elif not records and path.is_file() and path.stat().st_size and ending and ENDINGS[ending].name != "text":
-        over = "a record"
-    if over:
-        remedy = "name another file, or delete this one first"
-        raise UserError(f"the result would overwrite {over}", where=path, remedy=remedy)
-    check_writable(path)
-
-
-def _is_of_model(path: Path) -> bool:
-    return path.name in OF_A_MODEL and (path.parent / "model.toml").is_file()
-
-
-def _is_same(one: Path, other: Path) -> bool:
-    with contextlib.suppress(OSError):
-        return one.samefile(other)
-    return os.path.realpath(one) == os.path.realpath(other)
