@@ -15,7 +15,7 @@ from typing import Any
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect, Request
-from starlette.responses import JSONResponse, Response, StreamingResponse
+from starlette.responses import FileResponse, JSONResponse, Response, StreamingResponse
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
@@ -47,7 +47,7 @@ def make_application(session: Session) -> Starlette:
     static = Path(str(resources.files("ragg_runtime.studio").joinpath("static")))
     return Starlette(
         routes=[
-            route("/", partial(_send_page, _make_page(static))),
+            Route("/", FileResponse(static / "index.html")),
             Mount("/static", StaticFiles(directory=static)),
             route("/api/events", _send_events),
             route("/api/mapping", _try_mapping, "POST"),
@@ -74,17 +74,6 @@ async def _answer(answer: Answer, session: Session, request: Request) -> Respons
 
 
 # --- what is read --------------------------------------------------------------------------------------
-
-
-def _make_page(static: Path) -> str:
-    """The page; it names all modules at once, so that they come in one round instead of one for each level of imports."""
-    modules = sorted(m.relative_to(static).as_posix() for m in static.glob("**/*.js"))
-    links = "\n".join(f'<link rel="modulepreload" href="/static/{m}">' for m in modules)
-    return (static / "index.html").read_text("utf-8").replace("</head>", f"{links}\n</head>")
-
-
-async def _send_page(text: str, session: Session, request: Request) -> Response:
-    return Response(text, media_type="text/html")
 
 
 async def _read(make: Callable[[Session, Request], Any], session: Session, request: Request) -> Response:

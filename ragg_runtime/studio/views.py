@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import html
-import io
 import json
 import math
 import re
 import shlex
 import tempfile
-import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from latex2mathml.converter import convert
 
 from ragg_runtime import api
 from ragg_runtime.api import Loaded
@@ -254,8 +253,6 @@ _OPERATOR = re.compile(r"\\mathrel\{([+-])\}=")
 @lru_cache(maxsize=512)
 def mathml(latex: str, *, block: bool = False) -> str:
     """``latex`` as a ``<math>`` element; as plain text where it is none (an expression of the user's own)."""
-    from latex2mathml.converter import convert
-
     plain = f"<code>{html.escape(latex)}</code>"
     if ("\\" not in latex and "*" in latex) or set("<>&") & set(latex):  # the converter passes markup on
         return plain
@@ -335,20 +332,11 @@ def _write_steps(s: State) -> str:
     return pages.write_addition(steps, before, after, _make_source(s, "history"), s.diagnosed)
 
 
-def _write_compensated(s: State, name: str) -> bytes:
+def _write_compensated(s: State) -> bytes:
     with tempfile.TemporaryDirectory(prefix="ragg-") as folder:
-        path = Path(folder, name)
+        path = Path(folder, "compensated.csv")
         s.require("compensated").write(path)
         return path.read_bytes()
-
-
-def _write_export(s: State, form: str) -> bytes:
-    """The model to run elsewhere, with the saved calibration: what ``ragg export`` writes, as one file."""
-    archive = io.BytesIO()
-    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as z:
-        for path, text in api.FORMS[form](api.contents(s.model)).items():
-            z.writestr(zipfile.ZipInfo(f"model-{form}/{path}"), text, zipfile.ZIP_DEFLATED)
-    return archive.getvalue()
 
 
 def _write_json(s: State, name: str, command: str) -> str:
@@ -362,11 +350,8 @@ FILES: Mapping[str, tuple[str, Callable[[State], str | bytes]]] = {
     "steps.html": ("text/html", _write_steps),
     "compare.json": ("application/json", lambda s: _write_json(s, "compared", "compare")),
     "diagnosis.json": ("application/json", lambda s: _write_json(s, "diagnosed", "diagnose")),
-    "compensated.csv": ("text/csv", lambda s: _write_compensated(s, "compensated.csv")),
-    "compensated.parquet": ("application/vnd.apache.parquet", lambda s: _write_compensated(s, "compensated.parquet")),
+    "compensated.csv": ("text/csv", _write_compensated),
     "model.toml": ("application/toml", lambda s: s.model.directory.text),
-    "model-c.zip": ("application/zip", lambda s: _write_export(s, "c")),
-    "model-numpy.zip": ("application/zip", lambda s: _write_export(s, "numpy")),
     "commands.sh": ("text/plain", lambda s: "#!/bin/sh\n" + "\n".join(list_commands(s)) + "\n"),
 }  # fmt: skip
 """Name of a file to download -> its media type, and what makes it."""

@@ -32,7 +32,7 @@ export function applyView(main) {
         h("button", { type: "button", disabled: busy || !flown(state), onclick: () => doing("calibrate") }, "Save the parameters of these flights"),
         h("p.note", {}, state.model.calibrated ? `The model has a saved calibration ${state.model.calibrated}.` : "The model has no saved calibration yet.")),
       c ? c.sections.map(sectionNode) : null,
-      c ? h("p.row", {}, ["csv", "parquet"].map((e) => h("a", { href: `/api/take/compensated.${e}`, download: `compensated.${e}` }, `Save as ${e === "csv" ? "CSV" : "Parquet"}`))) : null);
+      c ? h("p.row", {}, h("a", { href: "/api/take/compensated.csv", download: "compensated.csv" }, "Save as CSV")) : null);
   };
 
   const curves = (state) => {
@@ -64,15 +64,13 @@ const FILES = [
   ["compare.json", "Comparison as JSON", "errors before and after calibration, terms, outputs"],
   ["compensated.csv", "Compensated channels", "inline and cross with their standard uncertainties (see Compensation)"],
   ["model.toml", "The model", "test sheet and effects with their calibrated values"],
-  ["model-c.zip", "The model in C", "a C17 program with the saved calibration, else the test sheet’s values"],
-  ["model-numpy.zip", "The model for NumPy", "the same as a folder that runs with NumPy alone"],
   ["commands.sh", "Shell commands", "the same steps as ragg commands"],
 ];
 
 export function takeView(main) {
   const known = () => {
     const { state } = server;
-    const ready = { "diagnosis.html": state && state.effects.length, "diagnosis.json": state && state.effects.length, "compare.html": state && state.error, "compare.json": state && state.error, "steps.html": state && state.before && state.error, "compensated.csv": state && state.compensated, "model.toml": state && state.model, "model-c.zip": state && state.model, "model-numpy.zip": state && state.model, "commands.sh": state && state.model };
+    const ready = { "diagnosis.html": state && state.effects.length, "diagnosis.json": state && state.effects.length, "compare.html": state && state.error, "compare.json": state && state.error, "steps.html": state && state.before && state.error, "compensated.csv": state && state.compensated, "model.toml": state && state.model, "commands.sh": state && state.model };
     fill(
       main,
       h("section.card", {}, h("h2", {}, "Downloads"),
