@@ -124,7 +124,7 @@ RULES = (
     Rule("timing-search", "a spin rate, a phase or a shift in time is searched for as a mistake",
          "quiet clock-set, quiet clock-50-ppm, quiet from-10-s, strong white", {"screening.timing.propose_times": lambda *a: []}),
     Rule("output-spikes", "spikes of the output are marked",
-         "quiet spikes, quiet codes, quiet heavy-tails, quiet stuck", {"screening.screen._leave_out_output_spikes": lambda s: s.flight}),
+         "quiet spikes, quiet codes, quiet heavy-tails, quiet stuck", {"screening.screen._leave_out_spikes": lambda s, places: s.flight}),
     Rule("motion-spikes", "spikes of the motion record are marked and interpolated",
          "quiet codes, quiet stuck, quiet recorded-motion, quiet sensors-1-mg", {"screening.screen.leave_out_glitches": _first}),
     Rule("claims-ratio", "beside a remainder claims explain plainly more than generic terms do",

@@ -221,6 +221,7 @@ class LinearFit:
     rms: float  # of the residual without its outliers, Eo
     size: float  # of the output about its mean, Eo
     p: Array  # fitted parameter vector of the model's chain, SI
+    gradient: Array  # (2,): the constant gradient, in GRADIENT_SCALE; () where it was recorded
     surprise: float  # sum of the squares of the parameters' moves, in plausible sizes
     # what the record determines of the parameters: the logarithm of prior over posterior volume, the price of wide priors
     volume: float
@@ -279,6 +280,7 @@ def fit_rows(rows: Rows) -> LinearFit:
         rms=float(np.sqrt(np.mean((y - theta @ X)[kept] ** 2))),
         size=float(np.sqrt(np.mean(size[kept] ** 2))),
         p=p,
+        gradient=theta[len(columns) :],
         surprise=float(np.sum(moves**2)),
         volume=volume,
         kept=float(np.mean(kept)),
@@ -304,6 +306,14 @@ def linearise(rows: Rows) -> tuple[Array, Array]:
     gradient = () if rows.gradient_recorded else (_make_gradient(rows),)
     X, y = rows.observe(np.concatenate([columns / eotvos, *gradient])), rows.data - rows.observe(nominal)
     return X[..., rows.inner], y[:, rows.inner] / eotvos
+
+
+def compute_residual(rows: Rows, fitted: LinearFit) -> Array:
+    """(m, n) Eo: what a fitted model leaves of rows of an output that is not demodulated."""
+    left = (rows.data - rows.predict(fitted.p)) / scale_factor(
+        rows.sampler.model, fitted.p, rows.sampler.place
+    )
+    return left - fitted.gradient @ _make_gradient(rows).swapaxes(0, 1) if len(fitted.gradient) else left
 
 
 def _make_gradient(rows: Rows) -> Array:

@@ -93,16 +93,21 @@ def _find_block_quantiles(x: Array, q: float) -> Array:
     return np.asarray(usual[np.minimum(np.arange(len(x)) // size, whole - 1)])
 
 
-def leave_out_glitches(flight: Flight) -> Flight:
-    """The flight with spikes of its motion interpolated, their samples marked as not valid, and flags of them."""
+def leave_out_glitches(flight: Flight, suspects: Mask | None = None) -> Flight:
+    """The flight with spikes of its motion interpolated, their samples marked as not valid, and flags of them.
+
+    Of ``suspects`` (N,), samples at which a model fails: columns of motion that are the reason.
+    """
     columns, valid = {}, np.array(flight.valid)
     flags: dict[str, Flag] = {}
     off = np.zeros_like(valid)  # samples that lack a rate
     for name, x in flight.channels.items():
-        if is_disc_angle(name):
+        if name in MOTION:
+            mask, mended = find_glitches(x, flight.valid, suspects)
+        elif suspects is not None:
+            continue
+        elif is_disc_angle(name):
             mask, mended = find_lost_angles(x, flight.valid)
-        elif name in MOTION:
-            mask, mended = find_glitches(x, flight.valid)
         elif name in AUXILIARY or name not in SI_UNITS:
             mask, mended = find_spikes_of_slow(x)
         else:
@@ -132,18 +137,21 @@ def change_columns(
     return derive_acceleration(changed, lost) if {*columns} & {*ANGULAR_RATE} else changed
 
 
-def find_glitches(x: Array, valid: Mask) -> tuple[Mask, Array]:
+def find_glitches(x: Array, valid: Mask, suspects: Mask | None = None) -> tuple[Mask, Array]:
     """Spikes of a smooth record (N,), which is interpolated where it lacks something, and the record with them interpolated.
 
     A glitch is off the prediction by its neighbours (a polynomial of the fifth degree through three samples on
     either side) by ``GLITCH`` times the usual error of that, and by more than twice the range of everything
-    within a dozen samples. The largest go first, since they distort the prediction of the others.
+    within a dozen samples, or is one of ``suspects`` (N,), the only ones then. The largest go first, since they distort the
+    prediction of the others.
     """
     glitches, present = np.zeros(len(x), dtype=np.bool_), np.isfinite(x)
     if np.sum(valid & present) < 8 * SIDE:
         return glitches, x
     # also in samples that are not used, since filters and derivatives of the record reach into them
-    glitches[present], mended = _separate_glitches(x[present])
+    glitches[present], mended = _separate_glitches(
+        x[present], None if suspects is None else suspects[present]
+    )
     if not glitches.any() or np.mean(glitches[valid]) > MOST:
         return np.zeros_like(glitches), x
     whole = np.array(x)
@@ -178,10 +186,10 @@ def _wrap(angle: Array) -> Array:
     return np.asarray(np.angle(np.exp(1j * angle)))
 
 
-def _separate_glitches(x: Array) -> tuple[Mask, Array]:
+def _separate_glitches(x: Array, suspects: Mask | None) -> tuple[Mask, Array]:
     """Glitches of a series without gaps (N,), and the series with them interpolated."""
     # plain ones first, which may be neighbours: the prediction by such would be far off beside them
-    off = find_spikes(x, np.ones(len(x), dtype=np.bool_))
+    off = find_spikes(x, np.full(len(x), suspects is None))
     y = bridge_gaps(x, ~off, smooth=True)
     for _ in range(12):
         size = np.abs(np.diff(np.pad(y, 3, mode="reflect"), 6)) / 20.0  # off the prediction
@@ -189,7 +197,8 @@ def _separate_glitches(x: Array) -> tuple[Mask, Array]:
         at = np.flatnonzero(size > limit)
         if len(at):
             at = at[size[at] > GLITCH * STD_OF_MEDIAN * _find_block_quantiles(size, 0.5)[at]]
-            at = at[(size[at] > 2 * _spread(y, at)) & (size[at] >= np.max(_surround(size, at, 3), axis=1))]
+            told = size[at] > 2 * _spread(y, at) if suspects is None else suspects[at]
+            at = at[told & (size[at] >= np.max(_surround(size, at, 3), axis=1))]
         if not len(at):
             break
         off[at] = True

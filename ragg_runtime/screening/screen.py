@@ -28,9 +28,16 @@ from ragg_runtime.io.sampling import (
     fit_clock_put_right,
     fit_even_clock,
 )
-from ragg_runtime.model.model import Model, scale_factor
+from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import EVEN, find_recorded, find_start, list_recorded_channels
-from ragg_runtime.screening.linear_fit import INDEPENDENT, Sampler, find_inliers, make_sampler
+from ragg_runtime.screening.linear_fit import (
+    INDEPENDENT,
+    LinearFit,
+    Sampler,
+    compute_residual,
+    find_inliers,
+    make_sampler,
+)
 from ragg_runtime.screening.mistakes import Finding, find_mistake
 from ragg_runtime.screening.motion_noise import smooth_noisy_motion
 from ragg_runtime.screening.readings import (
@@ -208,10 +215,14 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
         if _is_senseless(finding, instrument):
             raise _refuse(s.flight, finding)
         s = s.with_flight(s.flight.flagged([_make_flag(finding)]))
-    flight = smooth_noisy_motion(s)
-    for place in places:
-        flight = _leave_out_output_spikes(make_sampler(model, instrument, flight, place))
-    return flight
+    # noise is measured without spikes, and small ones are seen where it is smoothed
+    flight = _leave_out_spikes(s, places)
+    smoothed = smooth_noisy_motion(s.with_flight(flight))
+    if smoothed is not flight:
+        flight = _leave_out_spikes(s.with_flight(smoothed), places)
+    return flight.flagged(
+        [f for k in places for f in _flag_saturated(make_sampler(model, instrument, flight, k))]
+    )
 
 
 def _is_senseless(f: Finding, instrument: Instrument) -> bool:
@@ -286,7 +297,7 @@ def _correct_clock(s: Sampler) -> Flight:
         if c.part and not c.until
     )
     x = x.flagged([Flag(("time",), text) for text in pauses])
-    if worst <= EVEN or not _is_even(s, even, recorded.p):
+    if worst <= EVEN or not _is_even(s, even, recorded):
         return x
     text = (
         f"the time stamps jitter by up to {worst:.2g} of a step, but the output was sampled evenly: they are"
@@ -296,14 +307,14 @@ def _correct_clock(s: Sampler) -> Flight:
     return derive_acceleration(replace(x, time=even.flight.time, began=even.flight.began)).flagged(flags)
 
 
-def _is_even(s: Sampler, even: Sampler, p: Array) -> bool:
+def _is_even(s: Sampler, even: Sampler, fitted: LinearFit) -> bool:
     """Whether the output was sampled evenly, and not at the instants of the stamps.
 
-    What the model with parameters ``p`` predicts at the stamps differs from what it predicts at even instants by the jitter times
+    What the fitted model predicts at the stamps differs from what it predicts at even instants by the jitter times
     the output's slope. The part of that which is in the output is 1 or 0; it is fitted to second differences, from which slow
     errors of the model are gone.
     """
-    by_stamps, by_count = (_compute_residual(t, p) for t in (s, even))
+    by_stamps, by_count = (_compute_residual(t, fitted) for t in (s, even))
     three = s.usable[2:] & s.usable[1:-1] & s.usable[:-2]
     d, e = (np.diff(y, 2)[:, three] for y in (by_count - by_stamps, by_count))
     kept = find_inliers(np.abs(e))  # spikes say nothing
@@ -325,29 +336,33 @@ def _count_times(x: Flight, steps: Sequence[ClockStep], first: float, step: floa
 # --- the output ----------------------------------------------------------------------------------------
 
 
-def _leave_out_output_spikes(s: Sampler) -> Flight:
-    """The flight without the spikes of an output, found in what the fitted model leaves; saturated samples are reported."""
-    x, name, flags = s.flight, s.output.name, []
-    present = x.valid & np.isfinite(x.outputs[s.columns[0]])
-    clipped = int(np.count_nonzero(present & ~s.usable))
-    if clipped and s.columns == (name,):
-        top = float(np.max(np.abs(x.outputs[name][present])))
-        text = f"{name}: {clipped} samples are at the extreme value of {top:.6g} V: saturated, not used"
-        flags.append(Flag((name,), text))
-    valid = np.array(x.valid)
-    if not s.recorded.demodulated and s.usable.any():  # a demodulator has smeared them
-        for column, residual in zip(s.columns, _compute_residual(s, s.fit().p), strict=True):
-            spikes = find_spikes(residual, s.usable)
-            valid &= ~spikes
-            flags += [Flag((column,), describe_spikes(column, spikes, x.time))] if spikes.any() else []
-    return replace(x, valid=valid).flagged(flags)
+def _leave_out_spikes(s: Sampler, places: Sequence[int]) -> Flight:
+    """The flight without the spikes of its outputs, found in what the fitted model leaves, and those of the motion that made them."""
+    x = s.flight
+    for place in places:
+        s = make_sampler(s.model, s.instrument, x, place)
+        if s.recorded.demodulated or not s.usable.any():  # a demodulator has smeared them
+            continue
+        spikes = [find_spikes(residual, s.usable) for residual in _compute_residual(s, s.fit())]
+        x = leave_out_glitches(x, np.any(spikes, axis=0))
+        own = {c: k & x.valid for c, k in zip(s.columns, spikes, strict=True) if np.any(k & x.valid)}
+        flags = [Flag((c,), describe_spikes(c, k, x.time)) for c, k in own.items()]
+        x = replace(x, valid=x.valid & ~np.any(spikes, axis=0)).flagged(flags)
+    return x
 
 
-def _compute_residual(s: Sampler, p: Array) -> Array:
-    """(columns, N) Eo: what a model with these parameters leaves of the output."""
-    size = len(s.flight)
-    residual = np.empty((len(s.columns), size))
-    for part in split_range(size, CHUNK):
-        rows = s.take(np.arange(part.start, part.stop))
-        residual[:, part] = rows.data - rows.predict(p)
-    return residual / scale_factor(s.model, p, s.place)
+def _flag_saturated(s: Sampler) -> list[Flag]:
+    """A flag of the samples of an output that are at its extreme value."""
+    name = s.output.name
+    if s.columns != (name,):
+        return []
+    output = np.where(s.flight.valid, s.flight.outputs[name], np.nan)
+    clipped = int(np.sum(np.isfinite(output) & ~s.usable))
+    text = f"{name}: {clipped} samples are at the extreme value of {np.nanmax(np.abs(output)):.6g} V: saturated, not used"
+    return [Flag((name,), text)] if clipped else []
+
+
+def _compute_residual(s: Sampler, fitted: LinearFit) -> Array:
+    """(columns, N) Eo: what a fitted model leaves of the output."""
+    parts = split_range(len(s.flight), CHUNK)
+    return np.hstack([compute_residual(s.take(np.arange(k.start, k.stop)), fitted) for k in parts])

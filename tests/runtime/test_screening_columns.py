@@ -15,7 +15,7 @@ from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.assemble import derive_acceleration
 from ragg_runtime.io.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.io.sampling import find_clock_steps, fit_even_clock, make_grid
-from ragg_runtime.screening.readings import find_spikes, leave_out_glitches, leave_out_repeated
+from ragg_runtime.screening.readings import find_glitches, find_spikes, leave_out_glitches, leave_out_repeated
 from ragg_runtime.signals.fir import find_step
 from ragg_runtime.simulate import simulate_flight
 
@@ -158,6 +158,14 @@ def test_spikes_of_any_size_are_found_and_nothing_else() -> None:
         "nothing": np.zeros(N),
     }.items():
         assert not find_spikes(e, ALL).any(), kind
+
+
+def test_spikes_that_are_small_beside_the_motion_are_found_where_the_model_fails() -> None:
+    """A bit of a converter that fell over: as far off its neighbours as the motion moves within a dozen samples."""
+    suspects = np.isin(np.arange(N), PLACES)
+    mask, mended = find_glitches(SMOOTH + 0.01 * suspects, ALL, suspects)
+    assert np.array_equal(mask, suspects) and np.max(np.abs(mended - SMOOTH)) < 1e-4
+    assert not find_glitches(SMOOTH, ALL, suspects)[0].any()
 
 
 def test_spikes_are_found_beside_each_other_and_in_samples_that_are_not_used() -> None:
