@@ -228,18 +228,24 @@ def _leave_out_impossible(si: dict[str, Array], si_units: Mapping[str, str]) -> 
 
 
 def _require_rows_in_common(si: Mapping[str, Array], outputs: Sequence[str], place: str) -> None:
-    """UserError if motion and ``outputs`` are in different rows."""
-    moving = np.all([np.isfinite(si[n]) for n in (*SPECIFIC_FORCE, *ANGULAR_RATE)], axis=0)
-    recorded = np.any([np.isfinite(si[n]) for n in outputs] or [moving], axis=0)
+    """UserError if motion and ``outputs`` are in different rows, be the others empty or filled with the value before."""
+
+    def find_new(names: Sequence[str]) -> Mask:
+        x = np.array([si[n] for n in names])
+        # of an empty row's neighbours the difference is no number, and not zero
+        return np.asarray(np.isfinite(x).all(axis=0) & (np.diff(x, prepend=np.nan) != 0.0).any(axis=0))
+
+    moving = find_new((*SPECIFIC_FORCE, *ANGULAR_RATE))
+    recorded = np.any([find_new([n]) for n in outputs] or [moving], axis=0)
     both, fewer = int(np.sum(moving & recorded)), int(min(np.sum(moving), np.sum(recorded)))
     if both < JOINED * fewer:
         raise UserError(
             "motion and output are in different rows: two records joined by their times?",
             where=place,
-            found=f"motion in {np.sum(moving)} of {len(moving)} rows, an output in {np.sum(recorded)}, both in {both}",
+            found=f"new motion in {np.sum(moving)} of {len(moving)} rows, a new output in {np.sum(recorded)}, both in {both}",
             expected="motion and output at the same instants",
-            remedy="interpolate the motion at the instants of the output by splines (pandas: set_index of the time, then"
-            " interpolate('cubicspline') of the motion), and keep the rows with an output",
+            remedy="join them without filling, interpolate the motion at the instants of the output by splines (pandas: set_index"
+            " of the time, then interpolate('cubicspline') of the motion), and keep the rows with an output",
         )
 
 

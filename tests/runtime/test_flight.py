@@ -190,6 +190,8 @@ def without(*names: str) -> dict[str, np.ndarray]:
 
 TEXT = csv_text(columns(5))
 T, ODD = np.arange(N) / RATE, np.where(np.arange(N) % 2, 1.0, np.nan)
+# two records joined by their times, filled with the value before
+FILLED = {n: v[(np.arange(N) + (n == "G_out")) // 2] for n, v in columns().items()} | {"time": T}
 
 
 @pytest.mark.parametrize(
@@ -220,6 +222,7 @@ T, ODD = np.arange(N) / RATE, np.where(np.arange(N) % 2, 1.0, np.nan)
         (edited(time=np.where(T < 6, T, T + 1e6)), ("jump by 1e+06 s at t = 5.9375 s", "split")),
         (edited(G_out=np.full(N, np.nan), time=T), ("output is missing",)),
         (edited(a_x=ODD, G_out=ODD[::-1]), ("in different rows", "both in 0")),
+        (FILLED, ("in different rows", "100 of 200", "both in 1")),
     ],
 )
 def test_what_is_refused(load, tmp_path, table, facts) -> None:
