@@ -172,7 +172,6 @@ def world(s: Spec) -> World:
         auxiliaries=auxiliaries,
         duration=duration,
         rate=rate,
-        rotations="first-order",
         seed=int(s.rng(1).integers(2**31)),
     )
     return World(

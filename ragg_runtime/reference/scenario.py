@@ -15,7 +15,6 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import paper
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues
-from ragg_runtime.reference.geometry import Rotations
 from ragg_runtime.reference.gravity import Gradient, Gravity
 from ragg_runtime.reference.motion import MotionSignals, RecordedSignal, Signal, Sinusoids
 from ragg_runtime.reference.simulate import Noise, Simulation, draw_usual, eotvos_noise, simulate
@@ -161,7 +160,6 @@ class Scenario:
     auxiliaries: Mapping[str, Auxiliary]
     duration: float
     rate: float
-    rotations: Rotations
     seed: int
 
     def simulate(
@@ -231,38 +229,26 @@ def scenario(
     trim: Literal["matched", "table-v"] = "matched",
     duration: float = 1800.0,
     rate: float = 16.0,
-    shape: str | None = None,
-    bursts: float | None = None,
-    turbulence_scale: float = 1.0,
     perturbation: float = 1.0,
     noise_density: float = 2e-9,
     red_corner: float = 0.0,
     gradient_rms: float = 0.0,
-    rotations: Rotations = "first-order",
 ) -> Scenario:
     """Draw an instrument and a flight; equal arguments give equal flights.
 
     ``trim``: scale factors ``matched`` (10, 10.001, 10.0015, 10.002 mA/g) or ``table-v`` (10, 11, 11.5, 12 mA/g).
-    ``duration`` s, ``rate`` Hz; ``shape``, ``bursts``, ``turbulence_scale`` as in ``draw_motion``. ``perturbation``: of
-    the true parameters, in a test sheet's usual errors. ``noise_density``: white, of the demodulated cross channel,
-    s^-2/sqrt(Hz). ``red_corner``: Hz, below which 1/f noise exceeds the white. ``gradient_rms``: s^-2.
+    ``duration`` s, ``rate`` Hz. ``perturbation``: of the true parameters, in a test sheet's usual errors. ``noise_density``: white,
+    of the demodulated cross channel, s^-2/sqrt(Hz). ``red_corner``: Hz, below which 1/f noise exceeds the white. ``gradient_rms``: s^-2.
     """
     sheet = trimmed() if trim == "matched" else table_v()
     return Scenario(
         sheet=sheet,
         instrument=perturb(sheet, np.random.default_rng([seed, _INSTRUMENT]), perturbation),
-        motion=draw_motion(
-            np.random.default_rng([seed, _MOTION]),
-            duration,
-            shape=shape,
-            bursts=bursts,
-            turbulence_scale=turbulence_scale,
-        ),
+        motion=draw_motion(np.random.default_rng([seed, _MOTION]), duration),
         gravity=draw_gradient(np.random.default_rng([seed, _GEOLOGY]), gradient_rms),
         noise=eotvos_noise(noise_density, sheet.radius, red_corner),
         auxiliaries=draw_usual(np.random.default_rng([seed, _AUXILIARY])),
         duration=duration,
         rate=rate,
-        rotations=rotations,
         seed=seed,
     )
