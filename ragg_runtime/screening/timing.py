@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import optimize, signal
+from scipy import signal
 
 from ragg_runtime.base.errors import count
+from ragg_runtime.io import Flight
 from ragg_runtime.model.record import SPIN, disc_angle, find_start
 from ragg_runtime.screening.linear_fit import (
     Hypothesis,
@@ -33,21 +33,17 @@ SPIN_RANGE = 0.05  # relative error of the spin rate that is looked for
 # start of a record after angle 0 of its disc, s, up to which the spin rate is looked for: the grid is the finer
 LATEST = 1e4
 
-JUMP_ROWS, SWITCH, MOST_JUMPS = 800, 30.0, 4
-"""Rows on which places are looked for where rows are missing; what a change of their number costs, from a third to three times of
-which finds the same (docs/contributors/decisions.md); most such places in a record."""
+LOSS_ROWS, MOST_LAGS, SWITCH, MOST_JUMPS = 800, 64, 30.0, 4
+"""Rows on which places are looked for where rows are missing; numbers of rows that are tried at first; what a change of it costs, from
+a third to three times of which finds the same (docs/contributors/decisions.md); most places that are listed."""
 
-# most parts of a record in which missing rows are counted, and turns of the disc in each: what lies between two places must fill one
-JUMP_PARTS, JUMP_TURNS = 16, 4
 # shifts that are tried: about the tops of a cross-correlation, and on from there while less is left
 MOST_SHIFTS = 64
 LONGEST = 1 << 18  # samples of which a shift is estimated
 ORIGINS = ("zero", "first-sample")  # angle_origin of model.toml
 # angle at the start from which it is a mistake; smaller ones are a matter of calibration (spin-phase-offset)
 LEAST_PHASE = np.deg2rad(5.0)
-# turns by which the disc may be ahead where rows were lost, or behind where some were doubled, that are tried first
-TURNED = np.array([-15, -8, -4, -2, 2, 4, 8, 15, *range(30, 360, 30)]) / 360
-# fits of the model to what is of one record, in turn with the search for what is not; most that may be of another
+# fits of the model in turn with the search for which rows are of which record; most that may be of another
 ROUNDS, MOST_OTHER = 3, 0.5
 
 TELLING_PHASE = 3e-5
@@ -56,19 +52,10 @@ TELLING_PHASE = 3e-5
 
 # step of an encoder, rad, from which it may be what the model leaves: of an output of 100,000 Eo it makes 3 Eo, about the noise
 COARSE_ANGLE = 1e-4
-# turns of the disc over which its angle is estimated, to a tenth of a radian, and how many such estimates there must be
-TURNS, FEWEST_BLOCKS = 2, 8
-# angle, rad, by which an estimate may lie behind the one before: four times its error; beyond it the disc has run ahead
-BACK = 1.0
-
 PART_ROWS, LARGE, SMALL = 400, 0.2, 0.02
 """Rows by which a part of another record is looked for, and shares of the output that the model leaves of it at least, and of the rest at
 most: effects, a step of the gain too, leave a hundredth."""
 
-# factor of what they leave within which both are said: a gap of a third of a turn looks nearly like two thirds twice
-ALIKE = 3.0
-# angle, rad, from which rows are said to be missing here and there: a disc's own unsteadiness (spin-rate-jitter) is far less
-LEAST_TURN = 0.5
 COST = 3.0  # what orders a mistake of timing after one of columns that explains as much
 
 
@@ -81,7 +68,7 @@ def propose_times(s: Sampler) -> list[Hypothesis]:
     if turning and not (s.has_encoder and whole):
         hypotheses += _propose_phase(s)
     if turning and whole and not s.has_encoder:
-        hypotheses += [*_propose_jumps(s), *_propose_losses(s)]
+        hypotheses += _propose_losses(s)
     return hypotheses
 
 
@@ -164,36 +151,44 @@ def _wrap(angle: float) -> float:
 
 
 def _propose_losses(s: Sampler) -> list[Hypothesis]:
-    """Rows are missing all along, or doubled, while the stamps go on evenly: the disc runs ahead of them, or behind.
+    """Rows are missing, or doubled, while the stamps go on evenly: the disc runs ahead of them, or behind, by whole rows."""
+    n, turn = len(s.flight), s.flight.rate / abs(s.disc.spin_frequency)
+    rows = s.rows(n // 100, n - n // 100, LOSS_ROWS)  # at an end a loss is a phase
+    angle = 2 * np.pi * s.disc.spin_frequency / s.flight.rate
 
-    Its angle is followed by the phase of the output at the spin rate against that of the specific force in its plane, which differ by
-    a constant; of that the best fit that runs one way only is taken.
-    """
-    f, rate = s.disc.spin_frequency, s.flight.rate
-    turn = max(1, round(rate / abs(f)))
-    blocks = len(s.flight) // (turn * TURNS)
-    if blocks < FEWEST_BLOCKS:
+    def take(lags: Index) -> list[tuple[Array, Array]]:
+        return [linearise(s.take(rows, phase=angle * k)) for k in lags]
+
+    lags = np.unique(np.rint(np.arange(MOST_LAGS) * turn / MOST_LAGS).astype(np.intp))
+    systems, third = take(lags), slice(len(rows) - len(rows) // 3, None)
+    starts = np.full((2, len(rows)), -1)
+    starts[0, : len(rows) // 3] = 0
+    starts[1, third] = min(range(len(lags)), key=lambda k: _fit_segment(*systems[k], third)[1])
+    late = lags[min((_follow(systems, x) for x in starts), key=lambda x: x[1])[0]]
+    if len(lags) < turn - 1:  # once more, with all lags beside these
+        beside = int(turn / MOST_LAGS) + 1
+        lags = np.unique(np.unique(late)[:, None] + np.arange(-beside, beside + 1))
+        late = lags[_follow(take(lags), np.searchsorted(lags, late))[0]]
+    jumps = np.flatnonzero(np.diff(late)) + 1
+    if not len(jumps):
         return []
-    mixed = _mix(s, np.arange(blocks * turn * TURNS))
-    output, motion = (np.mean(x.reshape(-1, turn), axis=1) for x in mixed)
-    steps = -np.diff(np.angle(np.sum((output * np.conj(motion)).reshape(-1, TURNS), axis=1)))
-    rows, at = s.rows(), (np.arange(blocks) + 0.5) * turn * TURNS
-    candidates = []
-    for kind, way in (("missing", np.sign(f)), ("doubled", -np.sign(f))):
-        rises = np.cumsum(np.mod(way * steps + BACK, 2 * np.pi) - BACK)
-        angle = way * optimize.isotonic_regression(np.r_[0.0, rises]).x
-        advance = abs(float(angle[-1] - angle[0]))
-        number = round(advance / abs(2 * np.pi * f) * rate)
-        if advance > LEAST_TURN:
-            fitted = s.fit(rows, phase=np.interp(rows, at, angle - angle[0]))
-            candidates.append((fitted, f"{kind} (about {number} of {len(s.flight)})"))
-    if not candidates:
-        return []
-    best = min((x for x, _ in candidates), key=lambda x: x.share)
-    words = " or ".join(text for x, text in candidates if x.share < ALIKE * best.share)
-    what = f"rows are {words} all along the record, while its stamps go on evenly"
-    remedy = "use the recorder's time, not the row number; or record spin_angle"
-    return [Hypothesis(what, remedy, best, COST + 1.0, kind="losses")]
+    what = _describe_losses(s.flight.time[rows[jumps]], np.diff(late)[jumps - 1], turn, s.flight)
+    remedy = "use the recorder's time, not the row number; or split the record there, or record spin_angle"
+    kind = "losses" if len(jumps) > MOST_JUMPS else "record"
+    return [Hypothesis(what, remedy, s.fit(rows, phase=angle * late), COST + 1.0, kind)]
+
+
+def _describe_losses(instants: Array, steps: Index, turn: float, x: Flight) -> str:
+    """In words: from which instants on, s, the disc is ahead by how many rows more, whole turns of so many rows not counted."""
+    if len(steps) > MOST_JUMPS:
+        lost = int(np.sum(steps - turn * np.rint(steps / turn)))
+        words = f"{'missing' if lost > 0 else 'doubled'} (about {abs(lost)} of {len(x)})"
+        return f"rows are {words} all along the record, while its stamps go on evenly"
+    places = []
+    for at, lost in zip(instants, np.rint(np.mod(steps, turn)).astype(int), strict=True):
+        words = f"{lost} row{'s are' if lost != 1 else ' is'} missing there ({lost / x.rate:.4g} s)"
+        places.append(f"at t = {at:.5g} s: {words}, or {round(turn - lost)} are duplicated")
+    return f"rows are missing {', '.join(places)}; or whole turns of the disc ({turn / x.rate:.4g} s) more"
 
 
 def propose_parts(s: Sampler) -> list[Hypothesis]:
@@ -202,26 +197,18 @@ def propose_parts(s: Sampler) -> list[Hypothesis]:
     sample = s.take(rows)
     X, y = linearise(sample)
     size = fit_rows(sample).size
-    best, other, residual = np.inf, np.zeros(len(rows), dtype=np.bool_), y
-    for known in np.array_split(np.arange(len(rows)), 3):  # one of them is of one record, at least
-        for _ in range(ROUNDS):
-            if not len(known):
-                break
-            theta, rms = _fit_segment(X, y, known)
-            left = y - np.tensordot(theta, X, 1)
-            states = np.stack([np.mean(left**2, axis=0), np.full(len(rows), SMALL * LARGE * size**2)])
-            costs = np.log(rms**2 + states)
-            path = find_path(costs, SWITCH)
-            total, known = float(np.sum(costs[path, np.arange(len(rows))])), np.flatnonzero(path == 0)
-            if total < best:
-                best, other, residual = total, path == 1, left
+    starts = np.full((3, len(rows)), -1)
+    for start, third in zip(starts, np.array_split(np.arange(len(rows)), 3), strict=True):
+        start[third] = 0  # one of them is of one record, at least
+    other = min((_follow([(X, y)], x, SMALL * LARGE * size**2) for x in starts), key=lambda x: x[1])[0] == 1
     found = runs(other)
     if len(found) != 1 or np.mean(other) > MOST_OTHER:
         return []
     edges = np.r_[0, (rows[1:] + rows[:-1]) // 2, n]
     first, last = int(edges[found[0].start]), int(edges[found[0].stop])
-    rest = s.fit(rows[~other])
-    if float(np.sqrt(np.mean(residual[:, other] ** 2))) < LARGE * size or rest.share > SMALL:
+    rest, theta = s.fit(rows[~other]), _fit_segment(X, y, ~other)[0]
+    residual = (y - np.tensordot(theta, X, 1))[:, other]
+    if float(np.sqrt(np.mean(residual**2))) < LARGE * size or rest.share > SMALL:
         return []
     begins, ends = (f"t = {s.flight.time[min(k, n - 1)]:.4g} s" for k in (first, last))
     what = (
@@ -231,6 +218,36 @@ def propose_parts(s: Sampler) -> list[Hypothesis]:
     remedy = "cut the record there, and diagnose its parts by themselves"
     fitted = replace(rest, rms=rest.size * rest.share ** (1.0 - (last - first) / n))
     return [Hypothesis(what, remedy, fitted, COST + 1.0, effects=("gain-step",))]
+
+
+def _follow(
+    systems: Sequence[tuple[Array, Array]], path: Index, other: float | None = None
+) -> tuple[Index, float]:
+    """Which of some systems, columns (n, m, N) and data (m, N), the rows belong to, (N,), and what that costs.
+
+    The coefficients, which all systems share, are fitted to the rows as far as they are known (``path``; -1: not known), and the path of
+    least cost is found, in turn. ``other``: Eo^2, what is left of a row that belongs to none; these are the last state.
+    """
+    every, total = np.stack([X for X, _ in systems]), np.inf
+    data = np.stack([y for _, y in systems])
+    for _ in range(ROUNDS):
+        known = np.flatnonzero((path >= 0) & (path < len(systems)))
+        if not len(known):
+            break
+        X, y = (np.moveaxis(z[path[known], ..., known], 0, -1) for z in (every, data))
+        theta, rms = _fit_segment(X, y, slice(None))
+        squares = np.mean((data - np.einsum("n,knmr->kmr", theta, every)) ** 2, axis=1)
+        costs = np.log(rms**2 + np.vstack([squares, *([] if other is None else [np.full(len(path), other)])]))
+        path = find_path(costs, SWITCH)
+        total = float(np.sum(costs[path, np.arange(len(path))])) + SWITCH * np.count_nonzero(np.diff(path))
+    return path, total
+
+
+def _fit_segment(X: Array, y: Array, some: slice | Array) -> tuple[Array, float]:
+    """Coefficients (n,) of columns (n, m, N) by some of their rows, and the size of what they leave there, Eo."""
+    columns, data = X[:, :, some].reshape(len(X), -1), y[:, some].reshape(-1)
+    theta, kept, _ = fit_robustly(columns, data)
+    return theta, max(float(np.sqrt(np.mean((data - theta @ columns)[kept] ** 2))), 1e-12)
 
 
 Options = Callable[[Any], dict[str, Any]]
@@ -259,52 +276,6 @@ def _propose_shifts(s: Sampler) -> list[Hypothesis]:
     return shifts
 
 
-def _propose_jumps(s: Sampler) -> list[Hypothesis]:
-    """Rows are missing, or doubled, at a few places, while the stamps go on evenly: from there on the disc is ahead of them, or behind."""
-    n, f, rate = len(s.flight), abs(s.disc.spin_frequency), s.flight.rate
-    number = int(np.clip(s.flight.duration * f / JUMP_TURNS, 4, JUMP_PARTS))
-    usable = np.flatnonzero(s.usable)
-    parts = pairwise([0, *usable[[len(usable) * k // number for k in range(1, number)]].tolist(), n])
-
-    def turn(k: Any) -> dict[str, Any]:
-        return {"phase": 2 * np.pi * s.disc.spin_frequency / rate * k}
-
-    tried = [0, *np.rint(TURNED * rate / f).astype(int).tolist()]
-    lags = {_find_lag(s, s.rows(*part, JUMP_ROWS // 4), tried, turn) for part in parts}
-    rows = s.rows(n // 100, n - n // 100, JUMP_ROWS)  # at an end a loss is a phase
-    paths = [x for x in _follow_lags(s, rows, sorted({0, *lags}), turn) if np.ptp(x)] if any(lags) else []
-    if not paths:
-        return []
-    late = min(paths, key=lambda x: s.fit(rows, **turn(x)).misfit)
-    # once more, by the model as fitted with these lags, with more rows and lags beside them
-    beside = [s.rows(int(rows[k]), int(rows[k + 1]) + 1, JUMP_ROWS) for k in np.flatnonzero(np.diff(late))]
-    near = sorted({0, *(int(k) + d for k in np.unique(late) for d in (-2, -1, 0, 1, 2))})
-    more = np.union1d(rows, np.concatenate([rows, *beside])).astype(np.intp)
-    late = late[np.minimum(np.searchsorted(rows, more), len(rows) - 1)]
-    late = next(_follow_lags(s, more, near, turn, late))
-    jumps = [
-        (float(s.flight.time[more[k]]), *late[k - 1 : k + 1].tolist())
-        for k in np.flatnonzero(np.diff(late)) + 1
-    ]
-    if not jumps or len(jumps) > MOST_JUMPS:
-        return []
-    return [Hypothesis(*_describe_jumps(s, jumps), s.fit(more, **turn(late)), COST + 1.0)]
-
-
-def _describe_jumps(s: Sampler, jumps: Sequence[tuple[float, int, int]]) -> tuple[str, str]:
-    """What and the remedy: from which instants on, s, the disc is ahead by how many rows, before and since."""
-    rate, turn = s.flight.rate, s.flight.rate / abs(s.disc.spin_frequency)
-    parts = []
-    for at, before, since in jumps:
-        lost = round((since - before) % turn)
-        rows = f"{lost} row{'s are' if lost != 1 else ' is'} missing there ({lost / rate:.4g} s)"
-        parts.append(f"at t = {at:.5g} s: {rows}, or {round(turn - lost)} are duplicated")
-    return (
-        f"rows are missing {', '.join(parts)}; or whole turns of the disc ({turn / rate:.4g} s) more",
-        "use the recorder's time, not the row number; or split the record there, or record spin_angle",
-    )
-
-
 def _find_lag(s: Sampler, rows: Index, lags: Sequence[int], options: Options) -> int:
     """The lag with which the model leaves least of some rows: the best of ``lags``, or of those beside it as long as they leave less."""
     misfits: dict[int, float] = {}
@@ -314,35 +285,6 @@ def _find_lag(s: Sampler, rows: Index, lags: Sequence[int], options: Options) ->
         best = min(misfits, key=lambda k: misfits[k])
         untried = [k for d in (-1, 1) if (k := best + d or d) not in misfits]  # over 0, the record as it is
     return best
-
-
-def _follow_lags(
-    s: Sampler, rows: Index, lags: Sequence[int], options: Options, late: Index | None = None
-) -> Iterator[Index]:
-    """The lag at every row, (rows,), each one of ``lags``: by the model as fitted with those known so far (``late``); else as fitted to
-    the first third as it is, and to the last third with the lag that suits it best.
-    """
-    systems = [linearise(s.take(rows, **options(k))) for k in lags]
-    third, positions = len(rows) // 3, np.arange(len(rows))
-    choices = [
-        [(*systems[lags.index(0)], slice(0, third))],
-        [(X, y, slice(len(rows) - third, None)) for X, y in systems],
-    ]
-    if late is not None:
-        at = np.searchsorted(lags, late)
-        X, y = (np.moveaxis(np.stack(z)[at, ..., positions], 0, -1) for z in zip(*systems, strict=True))
-        choices = [[(X, y, slice(None))]]
-    for choice in choices:
-        theta, rms = min((_fit_segment(*one) for one in choice), key=lambda x: x[1])
-        square = np.array([np.sum((y - np.tensordot(theta, X, 1)) ** 2, axis=0) for X, y in systems])
-        yield np.asarray(lags)[find_path(np.log1p(square / rms**2), SWITCH)]
-
-
-def _fit_segment(X: Array, y: Array, some: slice | Index) -> tuple[Array, float]:
-    """Coefficients (n,) of columns (n, m, N) by some of their rows, and the size of what they leave there, Eo."""
-    columns, data = X[:, :, some].reshape(len(X), -1), y[:, some].reshape(-1)
-    theta, kept, _ = fit_robustly(columns, data)
-    return theta, max(float(np.sqrt(np.mean((data - theta @ columns)[kept] ** 2))), 1e-12)
 
 
 def find_path(costs: Array, switch: float) -> Index:

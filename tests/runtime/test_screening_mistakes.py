@@ -48,7 +48,7 @@ def changed(x: Flight, change: Callable[[str, np.ndarray], np.ndarray]) -> Fligh
 
 SEARCHES: dict[str, tuple[Any, str, Any]] = {
     "timing": (timing, "propose_times", lambda _: []),
-    "jumps": (timing, "_propose_jumps", lambda _: []),
+    "losses": (timing, "_propose_losses", lambda _: []),
     "columns": (mistakes, "list_mistakes", lambda _: iter(())),
     "all": (sys.modules[screen.__module__], "find_mistake", lambda _: None),
 }
@@ -123,7 +123,7 @@ def test_nothing_is_named_where_nothing_follows_the_motion() -> None:
 
 
 def test_the_spin_rate_is_measured(monkeypatch) -> None:
-    leave_out(monkeypatch, "columns", "jumps")
+    leave_out(monkeypatch, "columns", "losses")
     finding = found_in(flown(10), replace(drawn(10).sheet, layout=paper(0.1, 0.25 * 0.97)))
     assert finding is not None
     assert float(finding.best.what.split()[4]) == pytest.approx(0.25, rel=1e-6)
@@ -131,7 +131,7 @@ def test_the_spin_rate_is_measured(monkeypatch) -> None:
 
 @pytest.mark.parametrize(("samples", "of"), [(1, ("a_", "om")), (-32, ("a_",))])
 def test_what_is_late_is_measured_and_flagged(monkeypatch, samples: int, of: tuple[str, ...]) -> None:
-    leave_out(monkeypatch, "columns", "jumps")
+    leave_out(monkeypatch, "columns", "losses")
     x = changed(flown(11), lambda n, v: np.roll(v, samples) if n.startswith(of) else v)
     (flag,) = (f for f in screen(MODEL, drawn(11).sheet, x).flags if f.open)
     assert f"({abs(samples)} sample" in flag.reason
