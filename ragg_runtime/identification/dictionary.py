@@ -275,10 +275,10 @@ def whiten_terms(
             series = o.recorded.through(series.astype(np.float64), wide).astype(np.float32)
             series[:, ~wide.valid] = 0.0
         whole = (noise.whiten_series(series, k, None, level, None, lead)[0] for k in range(noise.outputs))
-        parts = [w * y[:, o.record.valid] for w, y in zip(noise.weights(signs), whole, strict=True)]
-        X = np.concatenate(parts, axis=1).astype(np.float64)
+        parts = [float(w) * y[:, o.record.valid] for w, y in zip(noise.weights(signs), whole, strict=True)]
+        X = np.concatenate(parts, axis=1)
         unknown_gradient.project(X, piece.windows)
-        yield at, series[:, lead:].astype(np.float64), X
+        yield at, series[:, lead:].astype(np.float64), X.astype(np.float64)
 
 
 # --- series that terms are made of: recorded channels, forces that turn with the disc, and what follows them. Their names are those of

@@ -53,9 +53,8 @@ SURE = 6.0
 filtered out by effects again: of five effect-free flights one had a false claim and one was unexplained."""
 
 BLOCK = 1 << 16  # samples that are smoothed together: at its ends a prediction is 1.5 times less sure
-TRIED = (
-    4 * BLOCK
-)  # samples in the middle of a record, at most, by which it is decided whether its motion is smoothed
+# samples in the middle of a record, at most, by which its noise is measured, and it is decided whether its motion is smoothed
+TRIED = 4 * BLOCK
 # error of the smoothed motion, in standard deviations of its noise, at which the conjugate gradients end, and their largest number
 CLOSE, MOST = 1e-3, 400
 TRIANGLE = np.array([0.25, 0.5, 0.25])  # weights that smooth a spectrum over neighbouring frequencies
@@ -126,7 +125,8 @@ def smooth_noisy_motion(s: Sampler) -> Flight:
         if names is ANGULAR_ACCELERATION and names[0] not in s.flight.written:
             continue  # derived from the rates
         x, rng = s.flight.channels, np.random.default_rng(0)
-        noise = {n: q for n in names if n in x and (q := measure_noise(x[n], valid)).std > 0.0}
+        there = {n: x[n][tried] for n in names if n in x}
+        noise = {n: q for n, v in there.items() if (q := measure_noise(v, valid[tried])).std > 0.0}
         noisier = {n: x[n] + q.std * rng.standard_normal(len(valid)) for n, q in noise.items()}
         if not noise or _compare(before.p, s, _change(s, noisier), rows) < NOTICED * before.rms:
             continue
