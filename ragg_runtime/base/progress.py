@@ -10,7 +10,8 @@ import contextlib
 import functools
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
@@ -80,6 +81,7 @@ def _describe(share: float, spent: float) -> str:
 
 P = ParamSpec("P")
 R = TypeVar("R")
+T = TypeVar("T")
 
 
 def split_range(length: int, longest: int) -> list[slice]:
@@ -94,6 +96,21 @@ def _find_libraries() -> threadpoolctl.ThreadpoolController:
     import threadpoolctl
 
     return threadpoolctl.ThreadpoolController()
+
+
+def map_ahead(function: Callable[[T], R], items: Iterable[T]) -> Iterator[R]:
+    """``map`` whose next result is made in another thread while the caller works on one; of a single item there is nothing to overlap."""
+    todo = list(items)
+    if len(todo) < 2:
+        yield from map(function, todo)
+        return
+    with ThreadPoolExecutor(1) as ahead:
+        future = ahead.submit(function, todo[0])
+        for x in todo[1:]:
+            result, future = future.result(), ahead.submit(function, x)
+            yield result
+            del result
+        yield future.result()
 
 
 def one_thread(function: Callable[P, R]) -> Callable[P, R]:

@@ -76,10 +76,14 @@ def pass_over(
     """
     share = (1.0 if at.candidates else 0.4) * (1.0 if whitened else 0.5)
     past, end = None, 0
-    for k, rows in enumerate(o.segments if chosen is None else chosen):
-        part = o.part(rows)
-        columns = linearise(at, part)
+    segments = o.segments if chosen is None else chosen
+
+    def make(k: int) -> tuple[slice, Observation, Array, Sequence[Window]]:
+        rows, part = segments[k], o.part(segments[k])
         windows = unknown_gradient.make_windows(o, rows, noise) if spanned is None else spanned[k]
+        return rows, part, linearise(at, part), windows
+
+    for rows, part, columns, windows in progress.map_ahead(make, range(len(segments))):
         white, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
         if whitened:
             white, past = noise.whiten_segment(

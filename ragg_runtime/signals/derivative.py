@@ -132,8 +132,8 @@ def bridge_gaps(x: Array, present: Mask, *, smooth: bool = False, turning: bool 
     turn = np.polyfit(at, values, 1) if turning and len(at) > 1 else np.zeros(1)
     off = values - np.polyval(turn, at)
     bridge, apart = np.interp(k, at, off), np.diff(at)
-    wide = np.flatnonzero(apart > FAR * np.median(apart)) + 1 if smooth and len(apart) else []
-    for group in np.split(np.arange(len(at)), wide) if smooth else ():
+    wide = np.flatnonzero(apart > FAR * np.median(apart)) if smooth and len(apart) else np.arange(0)
+    for group in np.split(np.arange(len(at)), wide + 1) if smooth else ():
         if len(group) > 1:
             inside, degree = slice(at[group[0]], at[group[-1]] + 1), min(BRIDGE, len(group) // 2 * 2 - 1)
             bridge[inside] = scipy.interpolate.make_interp_spline(at[group], off[group], degree)(k[inside])
