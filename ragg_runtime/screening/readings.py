@@ -450,7 +450,10 @@ def _find_curves(x: Array, bend: Array, step: float, degree: int) -> Mask:
             least = np.min(near[near > finest], initial=np.inf)
             digits = float(np.spacing(8 * np.max(np.abs(x))) if degree == 1 else least)
             bent = max(float(np.max(bend[run])), resolution, digits)
-            filled[first + 1 : last] |= len(x) * (bent / usual) ** (run.stop - run.start) < RARE
+            # it ends in a kink, an inflection of smooth motion does not
+            kink = np.max(np.nan_to_num(bend[[max(first - 1, 0), min(run.stop, len(bend) - 1)]], nan=np.inf))
+            rare = len(x) * (bent / usual) ** (run.stop - run.start) < RARE
+            filled[first + 1 : last] |= rare and kink > np.sqrt(bent * usual)
     return filled
 
 
