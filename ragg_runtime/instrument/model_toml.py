@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -95,12 +94,8 @@ def _read_discs(table: Mapping[str, Any], path: Path | None) -> tuple[Layout, fl
         check_keys(disc, DISC_UNITS, where)
         radius, spin_frequency, g0 = (_read_number(disc, n, unit, where) for n, unit in DISC_UNITS.items())
         return paper(radius, spin_frequency), g0
-    tables = [(at(path, "[[disc]]"), table)]
-    tables += [(at(path, f"[[disc]] {n}"), t) for n, t in enumerate(table["disc"], 1)]
-    g0s = {_read_number(t, "g0", "m/s^2", where) for where, t in tables if isinstance(t, dict) and "g0" in t}
-    if len(g0s) > 1:
-        raise UserError("g0 is given twice", where=path, found=sorted(g0s), expected="one value")
-    return read_layout(table["disc"], path), g0s.pop() if g0s else STANDARD_G0
+    g0 = _read_number(table, "g0", "m/s^2", str(path)) if "g0" in table else STANDARD_G0
+    return read_layout(table["disc"], path), g0
 
 
 def _find_table(table: Mapping[str, Any], name: str, path: Path | None) -> Mapping[str, Any]:
@@ -212,13 +207,8 @@ def _read_expression(
     return MappingProxyType({**{k: entry[k] for k in _EXPRESSION}, "params": dict(parameters)})
 
 
-DISC_KEYS = ("name", "radius", "spin_frequency", "axis", "zero", "g0", "accelerometer")
+DISC_KEYS = ("name", "radius", "spin_frequency", "axis", "zero", "accelerometer")
 PLACE_KEYS = ("name", "angle", "sign", "output", "radius", "height", "direction")
-
-_OTHERS = re.compile(
-    r"time|line|(a|omega|omegadot)_[xyz]|Gamma_[xyz]{2}|spin_angle(_.*)?|inline|cross|temperature|roll|pitch|yaw|pressure|B_[xyz]"
-)
-"""Columns that mean something else in every flight."""
 
 _EXAMPLE = '[[disc.accelerometer]]\\nname = "A1"\\nangle = "0 deg"\\nsign = 1\\noutput = "G_out"'
 
@@ -304,13 +294,8 @@ def _check(layout: Layout, path: Path | None) -> None:
                 remedy="give each disc an output of its own, such as G_out_A and G_out_B",
             )
     voltages = {c for j in range(layout.size) for c in layout.voltage_columns(j)}
-    for name in layout.output_names:
-        if name in voltages:
-            raise UserError(f"the output {name} has the name of a voltage", where=where)
-        if _OTHERS.fullmatch(name):
-            raise UserError(
-                f"the output {name} has the name of another column", where=where, expected="such as G_out_A"
-            )
+    for name in filter(voltages.__contains__, layout.output_names):
+        raise UserError(f"the output {name} has the name of a voltage", where=where)
 
 
 def _read_name(table: Mapping[str, Any], key: str, where: str, default: str | None = None) -> str:
@@ -321,7 +306,7 @@ def _read_name(table: Mapping[str, Any], key: str, where: str, default: str | No
 
 
 def _read_number(table: Mapping[str, Any], key: str, si_unit: str, where: str) -> float:
-    """One number in SI, whose unit is not made with g: g0 defines g, and nothing else here depends on it."""
+    """One number in SI."""
     place = f"{where} {key}"
     if key not in table:
         example = {"rad": "deg"}.get(si_unit, si_unit)
@@ -331,8 +316,6 @@ def _read_number(table: Mapping[str, Any], key: str, si_unit: str, where: str) -
         return 0.0  # nothing has no unit
     q = read_quantity(raw, place, count=1)
     # any g will do: that of most models, whose registry of units (a fifth of a second) is needed anyway
-    if q.unit != si_unit and units(STANDARD_G0).uses_g(q.unit, place):
-        raise UserError("g cannot be used here: g0 defines it", where=place, found=q, expected=si_unit)
     return float(read_si(q, si_unit, STANDARD_G0, place)[0])
 
 

@@ -159,10 +159,6 @@ class Units:
         base = self._registry.get_base_units(self.parse(unit, where))[1]
         return f"{base:~C}" or "1"
 
-    def uses_g(self, unit: str, where: str) -> bool:
-        """Whether ``unit`` is made with g."""
-        return self._has_factor(self.parse(unit, where), frozenset(("standard_g",)))
-
     def fits(self, unit: str, si_unit: str) -> bool:
         """Whether ``unit`` is a unit and has the dimension of ``si_unit``."""
         return self.find_meant(unit, si_unit) is not None

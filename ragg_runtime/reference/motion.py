@@ -53,10 +53,6 @@ def disc_angle(frequency: float, time: ArrayLike, shift: float = 0.0) -> NDArray
     return 2 * np.pi * (turns(frequency, time) - turns(frequency, shift))
 
 
-# Above this many numbers a block of sines is worked through in pieces.
-_BLOCK = 2_000_000
-
-
 class Signal(Protocol):
     """A smooth scalar function of time."""
 
@@ -82,12 +78,8 @@ class Sinusoids:
             return np.full(time.shape, mean)
         A = (2 * np.pi * f) ** derivative * A
         phase = phase - 2 * np.pi * turns(f, shift) + derivative * np.pi / 2
-        step = max(1, _BLOCK // A.size)
-        blocks = [
-            A @ np.sin(2 * np.pi * turns(f[:, None], time[start : start + step]) + phase[:, None])
-            for start in range(0, time.size, step)
-        ]
-        return mean + (np.concatenate(blocks) if blocks else np.zeros(0))
+        waves = np.sin(2 * np.pi * turns(f[:, None], time) + phase[:, None])
+        return np.asarray(mean + A @ waves)
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ _EDGE = 6  # samples at either end where the window is so one-sided that noise n
 _POLYNOMIAL = 4  # polynomials up to this degree are differentiated exactly
 
 
-def differentiate(x: Array, rate: float, valid: Mask | None = None) -> Array:
+def differentiate(x: Array, rate: float) -> Array:
     """Time derivative of ``x`` along its last axis, in units of x per second.
 
     A window of 25 samples, weighted by least squares for motion below 65 % of the Nyquist frequency, exact
@@ -34,22 +34,16 @@ def differentiate(x: Array, rate: float, valid: Mask | None = None) -> Array:
     Parameters
     ----------
     x
-        (..., N).
+        (..., N), NaN where there is no sample. Each run of samples is differentiated by itself.
     rate
         Sampling rate, Hz.
-    valid
-        (N,) bool, False where there is no sample, as is NaN. Each run of samples is differentiated by itself.
 
     Returns
     -------
     (..., N); NaN at missing samples and in runs of a single sample.
     """
-    x = np.asarray(x, dtype=np.float64)
-    present = np.asarray(np.isfinite(x).all(axis=tuple(range(x.ndim - 1)))) & (
-        True if valid is None else valid
-    )
     result = np.full_like(x, np.nan)
-    for run in runs(present):
+    for run in runs(np.atleast_1d(np.isfinite(x).all(axis=tuple(range(x.ndim - 1))))):
         result[..., run] = _differentiate_run(x[..., run]) * rate
     return result
 

@@ -72,7 +72,6 @@ def test_one_number_stands_for_all_and_lists_are_as_long_as_there_are_accelerome
         ("axis = [0, 0, 1]", "axis = [0, 0, 1]\nzero = [0, 0, 2]", "zero must not lie along the axis"),
         ("axis = [0, 0, 1]", "axes = [0, 0, 1]", "did you mean 'axis'"),
         ('output = "G_out"', 'output = "V_A2"', "has the name of a voltage"),
-        ('spin_frequency = "0.25 Hz"', 'spin_frequency = "0.25 Hz"\ng0 = "9.81 m/s^2"', "g0 is given twice"),
     ],
 )
 def test_refused(old: str, new: str, words: str) -> None:
@@ -230,9 +229,3 @@ def test_a_mapping_gives_identifiers(tmp_path: Path) -> None:
     (tmp_path / "flight.csv").write_text("time [s],Öl °C [K],*/ [T]\n1,2,3\n2,3,4\n")
     drafted = draft_mapping(tmp_path / "flight.csv").text.replace("# c_", "c_")
     assert {"c_l_C", "c_"} <= {*parse_mapping(drafted, tmp_path / "mapping.toml").channels}
-
-
-def test_an_output_is_no_other_column() -> None:
-    for name in ("time", "a_x", "spin_angle_int", "inline", "Gamma_xx", "V_a-b"):
-        with pytest.raises(UserError, match="has the name of"):
-            parse_instrument(sheet(output=name))

@@ -112,7 +112,6 @@ def test_effects() -> None:
         (with_line('"0.1 m"', '"1e999 m"'), ("[disc] radius", "not finite")),
         (with_line('"0.1 m"', '"-0.1 m"'), ("[disc] radius", "positive", "-0.1 m")),
         (with_line('"0.1 m"', '{ value = [1, 2, 3, 4], unit = "m" }'), ("[disc] radius", "one number")),
-        (with_line('g0 = "9.8 m/s^2"', 'g0 = "1 g"'), ("[disc] g0", "defines")),
         (with_line('g0 = "9.8 m/s^2"', ""), ("[disc]", "g0 is missing")),
         (with_line("[0, 30, 35, 25]", "[0, 30, 35]"), ("[accelerometers] dR", "3 values", "4")),
         (with_line("[0, 30, 35, 25]", "[0, 30, 35, nan]"), ("[accelerometers] dR", "not finite")),

@@ -80,11 +80,10 @@ def test_nothing_crosses_a_gap() -> None:
     x = np.cumsum(np.random.default_rng(2).normal(size=300))
     valid = np.ones(300, dtype=bool)
     valid[[*range(100, 110), 200]] = False
-    for wrong in (1e6, np.nan):
-        result = differentiate(np.where(valid, x, wrong), FAST, valid if wrong == 1e6 else None)
-        for run in (slice(0, 100), slice(110, 200), slice(201, 300)):
-            assert np.array_equal(result[run], differentiate(x[run], FAST))
-        assert np.isnan(result[~valid]).all()
+    result = differentiate(np.where(valid, x, np.nan), FAST)
+    for run in (slice(0, 100), slice(110, 200), slice(201, 300)):
+        assert np.array_equal(result[run], differentiate(x[run], FAST))
+    assert np.isnan(result[~valid]).all()
 
 
 def test_the_page_gives_the_formulas_of_the_code() -> None:
