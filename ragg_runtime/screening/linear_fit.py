@@ -253,7 +253,7 @@ class Hypothesis:
     # what orders hypotheses that explain as much, the plainest first: far below mistakes.AS_GOOD
     cost: float = 0.0
     # record (units, signs, axes, clock: the record is refused), shift (motion and output apart in time), origin (the disc angle counts
-    # from elsewhere), losses (rows are missing all along) or sheet (its priors are too narrow)
+    # from elsewhere), losses (rows are missing all along), part (between two instants) or sheet (its priors are too narrow)
     kind: str = "record"
     effects: tuple[str, ...] = ()  # ids of those that describe the same
     # whether it is enough that the parameters stay closer to the sheet; a mistake of timing must leave less

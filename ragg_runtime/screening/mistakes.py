@@ -22,9 +22,11 @@ from ragg_runtime.screening.linear_fit import (
     LinearFit,
     Rows,
     Sampler,
+    compute_residual,
     find_stem,
     fit_rows,
 )
+from ragg_runtime.signals.derivative import runs
 
 Array = NDArray[np.float64]
 
@@ -33,8 +35,11 @@ SUSPICIOUS = 30.0  # residual, Eo, from which mistakes are looked for; missing e
 SURPRISING = 150.0
 # rows on which all mistakes of unit, sign and axis are tried, and how many of the best are tried on more
 FEW, MOST_TRIED = 400, 24
+# parts of a record of which one, at least, has no mistake if another part has one
+PIECES = 6
 # gain in log evidence from which a hypothesis is named: a residual five times smaller. No missing effect looks like that.
 NAMED = INDEPENDENT * float(np.log(5.0))
+FIVEFOLD = 2.0 * float(np.log(5.0))  # the same of one row, by which a part of a record differs from the rest
 # difference in log evidence within which another hypothesis explains the record as well: what the choice of rows makes
 AS_GOOD = INDEPENDENT * float(np.log(1.1))
 
@@ -68,9 +73,9 @@ def find_mistake(s: Sampler) -> Finding | None:
     if before.rms < SUSPICIOUS and before.surprise < SURPRISING and before.kept > 1.0 - RARE:
         return None
     hypotheses = [*_propose_sheets(s), *_propose_columns(s), *timing.propose_times(s)]
-    parts: list[Hypothesis] = []
+    parts = [] if s.recorded.demodulated else _propose_midway(s)
     if (before.kept < 1.0 - RARE or before.share > timing.LARGE) and not s.recorded.demodulated:
-        parts = timing.propose_parts(s)
+        parts += timing.propose_parts(s)
     # a part of few enough rows: a robust fit has passed over them
     return _choose(before, [*hypotheses, *parts]) or (Finding(parts[0], (), before) if parts else None)
 
@@ -149,6 +154,51 @@ def _propose_columns(s: Sampler) -> list[Hypothesis]:
     rough.sort(key=lambda x: x[0] + x[1].plainness / 2)
     best = [m for score, m in rough[:MOST_TRIED] if score < rough[0][0] + NAMED]
     return [Hypothesis(m.what, m.remedy, fit_rows(m.undo(rows)), m.plainness / 2, calming=True) for m in best]
+
+
+def _propose_midway(s: Sampler) -> list[Hypothesis]:
+    """A mistake of unit, sign or axis in a part of the record: of a logger that was started anew with other settings."""
+    rows, least = s.rows(most=timing.PART_ROWS), np.inf
+    mistakes = list(list_mistakes(s.take(rows)))
+    for known in np.array_split(rows, min(PIECES, len(rows))):
+        fitted = s.fit(known)
+        costs = _measure_costs(s.take(rows), fitted, mistakes)
+        states = timing.find_path(costs, timing.SWITCH)
+        changes = timing.SWITCH * np.count_nonzero(np.diff(states))
+        total = float(np.sum(costs[states, np.arange(len(rows))])) + changes
+        if total < least:
+            least, best, path = total, fitted, states
+    if not path.any():
+        return []
+    m = mistakes[int(np.argmax(np.bincount(path)[1:]))]
+    beside = [s.rows(int(rows[k]), int(rows[k + 1]) + 1, len(rows)) for k in np.flatnonzero(np.diff(path))]
+    rows = np.unique(np.concatenate([rows, *beside]))
+    costs = _measure_costs(s.take(rows), best, [m])
+    there = timing.find_path(costs, timing.SWITCH) == 1
+    if len(runs(there)) != 1 or there.all():
+        return []
+    was, undone, rest = (float(np.mean(x)) for x in (costs[0, there], costs[1, there], costs[0, ~there]))
+    if was - max(undone, rest) < FIVEFOLD or undone - rest > FIVEFOLD:  # else the part fits as the rest does
+        return []
+    begins, ends = s.flight.time[rows[there][[0, -1]]]
+    what = f"between t = {begins:.5g} s and t = {ends:.5g} s {m.what}"
+    remedy = f"cut the record there, and in that part {m.remedy}"
+    fitted = fit_rows(_undo_between(m, begins, ends, s.take()))
+    return [Hypothesis(what, remedy, fitted, m.plainness / 2 + 1.0, kind="part")]
+
+
+def _measure_costs(rows: Rows, fitted: LinearFit, mistakes: Sequence[ColumnMistake]) -> Array:
+    """(1 + mistakes, n): what each of some rows speaks against it being as it is, or having one of the mistakes, by a fitted model."""
+    left = [compute_residual(x, fitted) for x in (rows, *(m.undo(rows) for m in mistakes))]
+    plainness = np.array([0.0, *(m.plainness / left[0].shape[-1] for m in mistakes)])
+    return np.asarray(np.log(fitted.rms**2 + np.mean(np.square(left), axis=1)) + plainness[:, None])
+
+
+def _undo_between(m: ColumnMistake, begins: float, ends: float, rows: Rows) -> Rows:
+    """Rows without a mistake that they have between two instants, s."""
+    there, undone = (rows.record.time >= begins) & (rows.record.time <= ends), m.undo(rows)
+    columns = {n: np.where(there, undone.record.wide[n], x) for n, x in rows.record.wide.items()}
+    return replace(rows.change(columns), data=np.where(there, undone.data, rows.data))
 
 
 def list_mistakes(rows: Rows) -> Iterator[ColumnMistake]:

@@ -227,35 +227,39 @@ def screen(model: Model, instrument: Instrument, flight: Flight) -> Flight:
 
 def _is_senseless(f: Finding, instrument: Instrument) -> bool:
     """Whether going on with a record makes no sense: a mistake explains it, and nothing else does."""
-    if f.best.kind == "losses" or (f.best.kind == "origin" and instrument.angle_origin is None):
-        return True  # its times are wrong throughout; nobody has answered yet
+    if f.best.kind in ("losses", "part") or (f.best.kind == "origin" and instrument.angle_origin is None):
+        return True  # its times are wrong throughout, or it is of two kinds; nobody has answered yet
     if f.best.kind in ("sheet", "shift", "origin"):
         return False
     return f.factor > SENSELESS
 
 
 def _refuse(flight: Flight, f: Finding) -> UserError:
-    unexplained = f"the model leaves {100 * f.before.share:.3g} % of the output unexplained"
+    unexplained = f"the model leaves {100 * f.before.share:.3g} % of the output unexplained; undone, {_describe_gain(f)}"
     odd = "".join(f"; {x.reason}" for x in flight.flags)
     return UserError(
         f"the record does not fit the instrument; the likely mistake: {f.what}",
         where=flight.path or flight.name,
-        found=f"{unexplained}, {f.factor:.3g} times more than with the mistake undone{odd}",
+        found=f"{unexplained}{odd}",
         expected="units, signs, axes and spin rate as the header and model.toml say",
         remedy=f.best.remedy,
     )
 
 
 def _make_flag(f: Finding) -> Flag:
-    gain = "the parameters stay closer to the test sheet"
-    if f.factor > HALVED:
-        gain = f"the unexplained part is {f.factor:.3g} times smaller"
-    elif not f.best.calming:
-        gain = f"{100 * (f.best.fitted.kept - f.before.kept):.2g} % more of the samples are explained"
     if f.best.kind == "sheet":
-        return Flag((), f"{f.best.what}; with a wider sheet {gain}; {f.best.remedy}")
-    reason = f"likely mistake: {f.what}; undone, {gain}; {f.best.remedy}"
+        return Flag((), f"{f.best.what}; with a wider sheet {_describe_gain(f)}; {f.best.remedy}")
+    reason = f"likely mistake: {f.what}; undone, {_describe_gain(f)}; {f.best.remedy}"
     return Flag((), reason, open=True, effects=f.best.effects)
+
+
+def _describe_gain(f: Finding) -> str:
+    """What undoing a mistake brings."""
+    if f.factor > HALVED:
+        return f"the unexplained part is {f.factor:.3g} times smaller"
+    if f.best.calming:
+        return "the parameters stay closer to the test sheet"
+    return f"{100 * (f.best.fitted.kept - f.before.kept):.2g} % more of the samples are explained"
 
 
 # --- the clock -----------------------------------------------------------------------------------------

@@ -194,6 +194,21 @@ def test_a_part_of_another_record_is_said_with_its_times(monkeypatch, begins, en
     assert any(re.search(f"explains the record, but not what {said}", r) for r in reasons)
 
 
+@pytest.mark.parametrize(
+    ("begins", "ends", "change", "said"),
+    [
+        (66.0, np.inf, lambda n, v: -v if n == "a_x" else v, "66 s and t = 119.94 s a_x has the wrong sign"),
+        (0.0, 80.0, lambda n, v: v / G0 if n[:2] == "a_" else v, "0 s and t = 79.938 s a_x, a_y, a_z are in g, not in m/s^2"),
+        (50.0, 54.0, lambda n, v: -v if n == "a_y" else v, "50 s and t = 53.938 s a_y has the wrong sign"),
+    ],
+)  # fmt: skip
+def test_a_mistake_in_a_part_of_a_record_is_said_with_its_times(begins, ends, change, said) -> None:
+    x = flown(12)
+    there = (x.time >= begins) & (x.time < ends)
+    (note,) = screened(12, changed(x, lambda n, v: np.where(there, change(n, v), v)))
+    assert f"likely mistake: between t = {said}" in note
+
+
 CUBIC = {"cubic-input": {"K_iii": [2e-2 / 9.8**2, 0.0, 0.0, 0.0]}}
 """By either clock most is left: of the right one a half."""
 
