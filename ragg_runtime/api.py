@@ -21,13 +21,11 @@ import numpy as np
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation import calibrate as _calibrate
 from ragg_runtime.compensation import compensate as _compensate
-from ragg_runtime.compensation import frozen as _frozen
 from ragg_runtime.compensation import recursive as _recursive
-from ragg_runtime.compensation.calibrate import Calibrated, count_directions, saved_calibration
+from ragg_runtime.compensation.calibrate import Calibrated, Held, count_directions, saved_calibration
 from ragg_runtime.compensation.compensate import Compensation, Kind
 from ragg_runtime.compensation.drift import Drift, smooth_drift
 from ragg_runtime.compensation.export import FORMS, Contents, write_export
-from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.estimation.fitted import list_noise_floor
 from ragg_runtime.identification import comparison as _compare
 from ragg_runtime.identification import diagnose as _diagnose
@@ -419,13 +417,13 @@ def _save_calibration(m: Loaded, c: Calibrated, flights: Sequence[Flight], mappi
 def compare_frozen(m: Loaded, flights: Flights) -> Held:
     """Compare flights with the model in its saved calibration, and test whether that holds."""
     flights = read_flights(m, flights)
-    return _frozen.compare_frozen(m.model, m.instrument, flights, saved_calibration(m))
+    return _calibrate.compare_frozen(m.model, m.instrument, flights, saved_calibration(m))
 
 
 def validate(m: Loaded, c: Comparison, fitted: Sequence[Flight], flights: Sequence[Flight]) -> Held:
     """Test the calibration of a comparison on other flights, on which nothing is fitted."""
     calibrated_ = Calibrated(c.fitted, c.nominal, c.calibrated, c.holdout)
-    return _frozen.compare_frozen(
+    return _calibrate.compare_frozen(
         m.model, m.instrument, flights, _calibrate.make_saved(calibrated_, fitted, stamp())
     )
 

@@ -18,8 +18,7 @@ from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.progress import one_thread, split_range
 from ragg_runtime.compensation.calibrate import Saved, saved_calibration
-from ragg_runtime.compensation.channel import Quality
-from ragg_runtime.compensation.compensate import Compensation, find_sensitive, leave_out_gradients
+from ragg_runtime.compensation.compensate import Compensation, Quality, find_sensitive, leave_out_gradients
 from ragg_runtime.compensation.drift import walk_on
 from ragg_runtime.estimation.least_squares import marginalise
 from ragg_runtime.estimation.observation import ROWS, Observation, combine_output, observe_flights

@@ -12,7 +12,7 @@ import numpy as np
 
 from ragg_runtime.base.errors import count, missing_package
 from ragg_runtime.base.files import MISSING, list_versions
-from ragg_runtime.compensation.frozen import Held
+from ragg_runtime.compensation.calibrate import Held
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.parameters import Estimates

@@ -20,8 +20,13 @@ from derive.effects import catalogue
 from ragg_runtime import api
 from ragg_runtime.api import Loaded
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.compensation.channel import OutputChannel
-from ragg_runtime.compensation.compensate import Kind, PreparedFlights, make_columns, prepare
+from ragg_runtime.compensation.compensate import (
+    Kind,
+    OutputChannel,
+    PreparedFlights,
+    make_columns,
+    prepare,
+)
 from ragg_runtime.compensation.export import Contents
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights

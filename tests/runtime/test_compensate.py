@@ -20,11 +20,18 @@ from scipy import signal
 from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
-from ragg_runtime.compensation import channel as output_channel
-from ragg_runtime.compensation import drift, frozen
+from ragg_runtime.compensation import calibrate as calibration
+from ragg_runtime.compensation import compensate as output_channel
+from ragg_runtime.compensation import drift
 from ragg_runtime.compensation.calibrate import calibrate, make_saved
-from ragg_runtime.compensation.channel import Compensated, OutputChannel, Quality
-from ragg_runtime.compensation.compensate import Kind, leave_out_gradients, prepare
+from ragg_runtime.compensation.compensate import (
+    Compensated,
+    Kind,
+    OutputChannel,
+    Quality,
+    leave_out_gradients,
+    prepare,
+)
 from ragg_runtime.estimation import unknown_gradient
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe_flights
@@ -334,7 +341,7 @@ def test_what_is_compensated_by_a_calibration_that_does_not_hold_says_so(kept: t
 @pytest.mark.parametrize(("changed", "holds"), [(0.0, True), (1e-6, False)])
 def test_of_a_long_flight_some_blocks_say_whether_it_holds(changed, holds, kept, monkeypatch) -> None:
     """Without an encoder the disc's angle counts from the flight's beginning, not from a block's."""
-    monkeypatch.setattr(frozen, "TESTED", 500)
+    monkeypatch.setattr(calibration, "TESTED", 500)
     c = api.compensate(api.load(kept[0]), [flights(changed)[1]], "frozen").as_json()
     assert c["frozen"]["holds"] is holds
     assert ("notes" in c) is not holds
@@ -348,7 +355,7 @@ def test_chi_square_is_one_a_direction_if_nothing_changed() -> None:
         saved = make_saved(calibrate(model, s.sheet, [s.simulate({}).flight()]), [], "now")
         t = scenario(seed + 50, duration=200.0, rate=RATE)
         x = dataclasses.replace(s, motion=t.motion, seed=t.seed).simulate({}).flight()
-        h = frozen.compare_frozen(model, s.sheet, [x], saved)
+        h = calibration.compare_frozen(model, s.sheet, [x], saved)
         total, directions = total + h.change.chi2, directions + len(h.change.z)
     assert abs(total - directions) < 4 * np.sqrt(2 * directions)
 

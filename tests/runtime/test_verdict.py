@@ -16,8 +16,7 @@ from scipy.signal import lfilter
 
 from generated.output_effects import imu_saturation
 from ragg_runtime import api
-from ragg_runtime.compensation.calibrate import calibrate, make_saved
-from ragg_runtime.compensation.frozen import compare_frozen
+from ragg_runtime.compensation.calibrate import calibrate, compare_frozen, make_saved
 from ragg_runtime.estimation import calibration
 from ragg_runtime.estimation.fitted import fit
 from ragg_runtime.estimation.observation import observe, observe_flights
