@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import reference
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Layout
@@ -18,10 +17,11 @@ from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.mapping import Mapped
 from ragg_runtime.model.model import DerivedEffect, load_packaged
 from ragg_runtime.model.record import find_start
+from ragg_runtime.reference import simulate as reference
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues, find_channels, resolve
 from ragg_runtime.reference.geometry import Rotations
-from ragg_runtime.reference.motion import RecordedSignal, Sinusoids, Turning
+from ragg_runtime.reference.motion import MotionSignals, RecordedSignal, Sinusoids, Turning, recorded_motion
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion, perturb
 from ragg_runtime.reference.simulate import draw_rare, draw_usual, eotvos_noise
 from ragg_runtime.workspace import Loaded
@@ -143,13 +143,13 @@ def _collect_auxiliaries(
     return channels
 
 
-def _take_motion(x: Flight, start: float) -> tuple[reference.MotionSignals, float, float]:
+def _take_motion(x: Flight, start: float) -> tuple[MotionSignals, float, float]:
     """The motion of a flight, beginning at ``start``, s; its duration, s, and rate, Hz, which give as many samples."""
     a, omega = (np.stack([x.channels[f"{n}_{k}"] for k in "xyz"]) for n in ("a", "omega"))
-    return reference.recorded_motion(x.time - x.time[0] + start, a, omega), len(x) / x.rate, x.rate
+    return recorded_motion(x.time - x.time[0] + start, a, omega), len(x) / x.rate, x.rate
 
 
-def _draw_motion(seed: int, duration: float, rate: float, shape: str | None) -> reference.MotionSignals:
+def _draw_motion(seed: int, duration: float, rate: float, shape: str | None) -> MotionSignals:
     if duration * rate > MOST_SAMPLES:
         raise UserError(
             "the flight is too long to be simulated",

@@ -21,9 +21,10 @@ from ragg_runtime import experiments as paper
 from ragg_runtime.experiments import DEGREE_PER_HOUR, Experiment, PrintedEntry
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import EOTVOS
-from ragg_runtime.reference import MotionSignals, Simulation, Sinusoids, disc_angle, simulate, still
 from ragg_runtime.reference.gravity import PointMass
+from ragg_runtime.reference.motion import MotionSignals, Sinusoids, disc_angle, still
 from ragg_runtime.reference.scenario import perfect, table_v
+from ragg_runtime.reference.simulate import Simulation, simulate
 from ragg_runtime.signals.demodulators import Demodulated, demodulate
 
 Array = NDArray[np.float64]

@@ -27,10 +27,12 @@ from derive.tape import Program, settled
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.units import units
-from ragg_runtime.reference import CATALOGUE, MotionSignals, Sinusoids, disc_angle, simulate
+from ragg_runtime.reference.effects import CATALOGUE
 from ragg_runtime.reference.geometry import frame_rotation, mount
 from ragg_runtime.reference.gravity import Gradient
+from ragg_runtime.reference.motion import MotionSignals, Sinusoids, disc_angle
 from ragg_runtime.reference.scenario import table_v
+from ragg_runtime.reference.simulate import simulate
 
 Array = NDArray[np.float64]
 Record = tuple[Mapping[str, Array], Array]

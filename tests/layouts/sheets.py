@@ -9,9 +9,9 @@ import numpy as np
 
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.io import Flight
-from ragg_runtime.reference import EffectValues, simulate
+from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion, perturb
-from ragg_runtime.reference.simulate import eotvos_noise
+from ragg_runtime.reference.simulate import eotvos_noise, simulate
 from tests.simulated import RATE
 
 

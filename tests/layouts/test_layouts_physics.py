@@ -21,8 +21,8 @@ from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.model import derive
 from ragg_runtime.model.model import Model, evaluate_output, find_unit_factor, make_vector, scale_factor
 from ragg_runtime.model.record import Record, record
-from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
+from ragg_runtime.reference.simulate import simulate
 from ragg_runtime.simulate import parse_turning, simulate_flight
 from tests.layouts import sheets
 

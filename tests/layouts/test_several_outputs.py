@@ -39,7 +39,7 @@ from ragg_runtime.model import derive
 from ragg_runtime.model.directory import ModelDir
 from ragg_runtime.model.model import evaluate_output, load_files, make_vector
 from ragg_runtime.model.record import record
-from ragg_runtime.reference import EffectValues
+from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.signals.demodulators import COMPONENTS, Demodulator, solve_tensor
 from tests.layouts import sheets
 from tests.layouts.sheets import flown_by

@@ -21,8 +21,8 @@ from ragg_runtime.io.files import convert
 from ragg_runtime.model import derive
 from ragg_runtime.model.model import evaluate_output, load_packaged, make_vector, scale_factor
 from ragg_runtime.model.record import SPIN, Record, measure_spin, record
-from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import scenario
+from ragg_runtime.reference.simulate import simulate
 from ragg_runtime.screening import screen
 from ragg_runtime.simulate import simulate_flight
 from tests.simulated import RATE

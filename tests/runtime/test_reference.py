@@ -18,7 +18,7 @@ from scipy.signal import welch
 from scipy.spatial.transform import Rotation
 
 from derive.effects.quantisation import quantisation
-from ragg_runtime import api, reference
+from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.fitted import Fitted, fit
 from ragg_runtime.estimation.observation import observe
@@ -29,22 +29,14 @@ from ragg_runtime.model import derive
 from ragg_runtime.model.memory import add_responses, first_memories
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.model.record import record
-from ragg_runtime.reference import (
-    CATALOGUE,
-    MotionSignals,
-    Simulation,
-    Sinusoids,
-    disc_angle,
-    simulate,
-    still,
-)
-from ragg_runtime.reference.effects import EffectValues, resolve
+from ragg_runtime.reference import simulate as reference
+from ragg_runtime.reference.effects import CATALOGUE, EffectValues, resolve
 from ragg_runtime.reference.effects.force import gravity_tensor
 from ragg_runtime.reference.geometry import Taylor, carry
 from ragg_runtime.reference.gravity import Gradient, PointMass
-from ragg_runtime.reference.motion import RecordedSignal, turns
+from ragg_runtime.reference.motion import MotionSignals, RecordedSignal, Sinusoids, disc_angle, still, turns
 from ragg_runtime.reference.scenario import SHAPES, draw_motion, perfect, scenario, trimmed, turbulence
-from ragg_runtime.reference.simulate import Noise, eotvos_noise
+from ragg_runtime.reference.simulate import Noise, Simulation, eotvos_noise, simulate
 from ragg_runtime.signals.demodulators import demodulate
 from ragg_runtime.simulate import simulate_flight
 from tests.simulated import RATE as SLOW
@@ -89,11 +81,11 @@ def test_seed_and_trim_decide() -> None:
 def test_flights_are_of_one_instrument_unless_another_is_asked_for(tmp_path, monkeypatch) -> None:
     """A calibration of the first flight holds on the second."""
     true: list[Instrument] = []
-    simulate = reference.simulate
+    original = reference.simulate
 
     def watched(instrument: Instrument, *rest: Any, **options: Any) -> Simulation:
         true.append(instrument)
-        return simulate(instrument, *rest, **options)
+        return original(instrument, *rest, **options)
 
     monkeypatch.setattr(reference, "simulate", watched)
     i = api.new(tmp_path / "m").instrument

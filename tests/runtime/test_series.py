@@ -39,9 +39,10 @@ from ragg_runtime.io.mapping import parse_mapping
 from ragg_runtime.model import derive, model
 from ragg_runtime.model.model import make_vector, scale_factor
 from ragg_runtime.model.record import record
-from ragg_runtime.reference import disc_angle, simulate, still
 from ragg_runtime.reference.gravity import Gradient
+from ragg_runtime.reference.motion import disc_angle, still
 from ragg_runtime.reference.scenario import Scenario, perfect, scenario
+from ragg_runtime.reference.simulate import simulate
 from ragg_runtime.report import panels
 from ragg_runtime.signals.demodulators import demodulate, low_pass
 from ragg_runtime.signals.derivative import differentiate
