@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -96,18 +97,11 @@ def _measure_spectrum(x: Array, present: Mask) -> tuple[Array, float]:
         window //= 2
     filled, parts = predict_missing(x, present), runs(whole, window)
     share = np.array([r.stop - r.start for r in parts], dtype=np.float64)
-    density = np.average([_average_windows(filled[r], window) for r in parts], axis=0, weights=share)
+    welch = partial(signal.welch, nperseg=window, detrend="linear")
+    densities = [welch(filled[r])[1] for r in parts]
+    density = np.average(densities, axis=0, weights=share)
     smoothed = np.convolve(np.pad(density, 1, mode="edge"), TRIANGLE, mode="valid")
     return smoothed, SCATTER * float(np.sqrt(window / np.sum(share)))
-
-
-def _average_windows(x: Array, window: int) -> Array:
-    """One-sided density of a series by Welch's method, all windows at once: ``scipy.signal.welch`` takes their trends one by one."""
-    shape = signal.windows.hann(window, sym=False)
-    parts = signal.detrend(np.lib.stride_tricks.sliding_window_view(x, window)[:: window // 2])
-    power = np.mean(np.abs(fft.rfft(parts * shape)) ** 2, axis=0) / np.sum(shape**2)
-    power[1:-1] *= 2.0  # what is at negative frequencies
-    return np.asarray(power)
 
 
 def smooth_noisy_motion(s: Sampler) -> Flight:
