@@ -17,7 +17,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
-from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -156,26 +155,6 @@ class Demodulator:
         return convolve(padded, self.taps)
 
 
-def fir(rate: float, cutoff: float | None, order: int | None) -> Demodulator:
-    """The paper's low-pass, or one as narrow at another corner, Hz; it has no ``order``."""
-    taps, remark = low_pass(rate, cutoff=cutoff or CUTOFF), "" if cutoff else " (the paper's)"
-    words = f"linear-phase FIR, half amplitude at {cutoff or CUTOFF:g} Hz{remark}"
-    return Demodulator("fir", rate, taps, len(taps) // 2, words)
-
-
-def butterworth(rate: float, cutoff: float | None, order: int | None) -> Demodulator:
-    """Forward and backward."""
-    h = _measure_impulse(rate, order or ORDER, cutoff or CORNER)
-    words = f"Butterworth of order {order or ORDER} at {cutoff or CORNER:g} Hz, forward and backward"
-    return Demodulator("butterworth", rate, convolve(h, h[::-1], "full"), len(h) - 1, words)
-
-
-def causal(rate: float, cutoff: float | None, order: int | None) -> Demodulator:
-    """Forward alone."""
-    words = f"Butterworth of order {order or ORDER} at {cutoff or CORNER:g} Hz, forward only"
-    return Demodulator("causal", rate, _measure_impulse(rate, order or ORDER, cutoff or CORNER), 0, words)
-
-
 def _measure_impulse(rate: float, order: int, cutoff: float) -> Array:
     """Impulse response of a Butterworth low-pass until it is forgotten, its sum 1."""
     from scipy import signal  # slow to import, and only these demodulators need it
@@ -193,16 +172,29 @@ def _measure_impulse(rate: float, order: int, cutoff: float) -> Array:
     return np.asarray(h / np.sum(h))
 
 
-DEMODULATORS = MappingProxyType({"fir": fir, "butterworth": butterworth, "causal": causal})
+DEMODULATORS = ("fir", "butterworth", "causal")
 
 
 @cache
 def find_demodulator(
     name: str, rate: float, cutoff: float | None = None, order: int | None = None
 ) -> Demodulator:
-    """The demodulator of this name, at a sampling rate, Hz, with the usual corner, Hz, and order or others; UserError if there is none."""
-    check_choice(name, tuple(DEMODULATORS), "demodulator", "there is no such demodulator")
-    return DEMODULATORS[name](rate, cutoff, order)
+    """The demodulator of this name at a sampling rate, Hz; ``fir`` is the paper's, ``butterworth`` goes forward and backward, ``causal``
+    forward alone. Of another ``cutoff``, Hz, or ``order`` than usual if these are given. UserError if there is none.
+    """
+    check_choice(name, DEMODULATORS, "demodulator", "there is no such demodulator")
+    if name == "fir":
+        corner, remark = cutoff or CUTOFF, "" if cutoff else " (the paper's)"
+        taps = low_pass(rate, cutoff=corner)
+        words = f"linear-phase FIR, half amplitude at {corner:g} Hz{remark}"
+        return Demodulator(name, rate, taps, len(taps) // 2, words)
+    corner, order, both = cutoff or CORNER, order or ORDER, name == "butterworth"
+    h = _measure_impulse(rate, order, corner)
+    taps = convolve(h, h[::-1], "full") if both else h
+    words = (
+        f"Butterworth of order {order} at {corner:g} Hz, {'forward and backward' if both else 'forward only'}"
+    )
+    return Demodulator(name, rate, taps, len(h) - 1 if both else 0, words)
 
 
 Axis = Sequence[float] | Array
