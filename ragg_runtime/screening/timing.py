@@ -24,7 +24,7 @@ from ragg_runtime.screening.linear_fit import (
 )
 from ragg_runtime.signals.demodulators import is_demodulable, low_pass
 from ragg_runtime.signals.derivative import runs
-from ragg_runtime.signals.fir import convolve, find_step
+from ragg_runtime.signals.fir import convolve
 
 Array = NDArray[np.float64]
 
@@ -50,8 +50,6 @@ TELLING_PHASE = 3e-5
 """Angle, rad, that an error of the spin rate may add up to over a record and stay unseen: of a gradient of 3000 Eo that is
 0.1 Eo. Further digits of a rate are noise of the search."""
 
-# step of an encoder, rad, from which it may be what the model leaves: of an output of 100,000 Eo it makes 3 Eo, about the noise
-COARSE_ANGLE = 1e-4
 PART_ROWS, LARGE, SMALL = 400, 0.2, 0.02
 """Rows by which a part of another record is looked for, and shares of the output that the model leaves of it at least, and of the rest at
 most: effects, a step of the gain too, leave a hundredth."""
@@ -96,12 +94,9 @@ def _propose_spin(s: Sampler) -> list[Hypothesis]:
     rate, remedy = write_rate(best, x.duration), "record spin_angle"
     what = f"the spin rate is {rate} Hz, not the model's {f0:.9g} Hz ({100 * (best / f0 - 1):+.2g} %)"
     if s.has_encoder:
-        column, step = s.disc.angle_column, find_step(x.channels[s.disc.angle_column]) or 0.0
-        wrong = "is not the angle of the disc, which"
-        if step > COARSE_ANGLE:
-            wrong = f"is recorded in steps of {np.rad2deg(step):.3g} degrees, too coarse for this output; the disc"
-        what = f"{column} {wrong} turns at {rate} Hz from angle 0 at the first sample"
-        remedy = f"check the encoder and its zero, or leave {column} out"
+        column = s.disc.angle_column
+        what = f"{column} is not the angle of the disc, which turns at {rate} Hz from angle 0 at the first sample"
+        remedy = f"check the encoder, its resolution and its zero, or leave {column} out"
     if float(rate) != float(write_rate(f0, x.duration)):
         remedy = f'write spin_frequency = "{rate} Hz" in model.toml, or {remedy}'
         if not s.has_encoder:
@@ -153,7 +148,9 @@ def _wrap(angle: float) -> float:
 def _propose_losses(s: Sampler) -> list[Hypothesis]:
     """Rows are missing, or doubled, while the stamps go on evenly: the disc runs ahead of them, or behind, by whole rows."""
     n, turn = len(s.flight), s.flight.rate / abs(s.disc.spin_frequency)
-    rows = s.rows(n // 100, n - n // 100, LOSS_ROWS)  # at an end a loss is a phase
+    rows = s.rows(n // 100, n - n // 100, LOSS_ROWS // len(s.columns))  # at an end a loss is a phase
+    if len(rows) < 3:
+        return []
     angle = 2 * np.pi * s.disc.spin_frequency / s.flight.rate
 
     def take(lags: Index) -> list[tuple[Array, Array]]:
