@@ -89,8 +89,6 @@ RULES = (
          f"{OFF}, ten elsewhere", {"estimation.fitted.widen_priors": _always(None)}),
     Rule("time-varying", "generic terms that come and go",
          f"{OUTSIDE}, quiet ramp", {"identification.omnibus._find_varying": _always(None)}),
-    Rule("spectral-line", "a line in the spectrum of what is left",
-         f"{OUTSIDE}, quiet line, quiet mains", {"identification.omnibus._find_line": _always(None)}),
     Rule("nonlinear-selection", "strong effects are derived into the model one after the other",
          STRONG, {"identification.strong.STRONG": np.inf}),
     Rule("contenders", "of a strong effect up to three contenders are fitted in the model",

@@ -5,8 +5,8 @@ that share of them. By the union bound (Bonferroni) the tests that decide the ve
 
     CATALOGUE   the effects that are columns, and steps: the least p-value times the number of effects tested
   + a random effect is tested besides, at CATALOGUE over the number of effects: one effect of thirty adds 0.001
-  + REMAINDER   what no effect explains, all generic terms together; divided by REMAINDER_SHARES
-  + the first share of it once more: all products of the formula
+  + REMAINDER   what no effect explains, all generic terms together
+  + REMAINDER_SHARE of it once more: all products of the formula
 
 which is 0.037. The rest of the promise is for the noise spectrum, which is estimated from the same record and not known: a
 few of its bins at low frequency carry the drifts. COMPANION enters only where there is an effect, and LEVEL, CHANGE, FROZEN and
@@ -24,8 +24,8 @@ CATALOGUE = 0.03
 # of each effect beside the first, of which there are three at most: a chance companion spoils a finding that is right
 COMPANION = 0.005
 REMAINDER = 0.004  # of all generic terms in the residual, some 2,000: the largest must be 4.9 sigma
-# how steady terms, terms that come and go, and lines in the spectrum divide REMAINDER
-REMAINDER_SHARES = (0.5, 0.25, 0.25)
+# of REMAINDER, for steady terms and for terms that come and go
+REMAINDER_SHARE = 0.5
 LEVEL = 1e-4  # of the remark that the noise level follows something, over all quantities tested
 # of holds_until_s: a change is said to be in flights in which there is none (over all of their blocks of time)
 CHANGE = 0.01

@@ -8,7 +8,7 @@ The data that flows, and where each step of the textbook is:
 - ``strong.Stage``, ``strong.AddedEffect``: nonlinear forward selection, an effect after the other derived into the model;
   ``search.Evidence``: all that was selected, and ``search.Outcome``: fitted together, with what it leaves;
 - ``omnibus.Remainder``: lack of fit, by orthogonal matching pursuit over the generic terms of ``dictionary``; ``time_varying``: terms that
-  come and go, and lines; ``formula``: a formula of one line for it;
+  come and go; ``formula``: a formula of one line for it;
 - ``verdict.Conclusion``: what is claimed beside it; ``claims``: robust variance, held-out blocks, rivalry with generic terms;
   ``line_rival``: rivalry with lines near multiples of the spin rate; ``consistency``: Chow's test between flights, changes within them;
 - ``result.Diagnosis``: what is reported, with ``ranking``: p-values and posterior probabilities of all effects, ``parameters``: their

@@ -72,7 +72,7 @@ def _propose_formula(f: Fitted, flight: int, extra: Sequence[int], search: Omnib
     # a steady term that is left has been tested; another must stand out among all products
     best = omnibus.pursue(scores, search.tried if search.steady else tried + search.tried)
     # what comes second is not known to be there: it stands out among all products
-    level = -float(ndtri(omnibus.FAMILY * omnibus.SHARES[0] / (2 * (tried + search.tried))))
+    level = -float(ndtri(omnibus.FAMILY * omnibus.SHARE / (2 * (tried + search.tried))))
     taken = (*best.terms[:1], *(t for t in best.terms[1:] if abs(t.z) > level))
     log_p = search.log_p if search.steady else min(search.log_p, best.log_p)
     return replace(search, log_p=log_p, terms=taken, chi2=sum(t.chi2 for t in taken)) if taken else search

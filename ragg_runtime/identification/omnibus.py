@@ -16,23 +16,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.estimation import unknown_gradient, whitening
+from ragg_runtime.estimation import whitening
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.estimation.likelihood_ratio import Scatter, Test, sum_variances, test_variance
-from ragg_runtime.estimation.noise_estimate import compute_line_width
 from ragg_runtime.estimation.regressors import predict_observed
 from ragg_runtime.estimation.scores import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.estimation.whitening import Piece, PreparedFlight, Projector
 from ragg_runtime.identification.dictionary import Dictionary, Term, find_term_unit, whiten_terms
-from ragg_runtime.identification.time_varying import BlockScores, Periodogram
+from ragg_runtime.identification.time_varying import BlockScores
 
 Array = NDArray[np.float64]
 T = TypeVar("T")
 
 # probability with which anything at all may seem left of an effect-free record
 FAMILY = false_alarms.REMAINDER
-# how the tests divide it: steady terms, terms that come and go, lines in the spectrum
-SHARES = false_alarms.REMAINDER_SHARES
+# what steady terms have of it, and terms that come and go
+SHARE = false_alarms.REMAINDER_SHARE
 
 # share of a term's square that must be left of it beside the base's columns for it to have a direction of its own: single precision
 # knows no less
@@ -110,18 +109,12 @@ class Scores:
         dictionary: Dictionary | None = None,
     ) -> None:
         self.prepared, self.projector, self.only = prepared, projector, only
-        o, r = prepared.observation, prepared.observation.record
         self.dictionary = dictionary or make_dictionary(prepared)
         count = len(self.dictionary.terms)
         self.dot, self.norm2, *self.raw = np.zeros((4, count))
         self.along = np.zeros((count, len(projector.along)))
         self.samples, self.square = 0, 0.0
-        excluded = None
-        if unknown_gradient.is_unknown(o):  # there nothing is left of the noise either
-            double, width = 2 * r.spin_frequency, 2 / unknown_gradient.KNOT_SECONDS
-            excluded = (double - width, double + width)
-        self.blocks = BlockScores(self.dictionary.first_order, r.time)
-        self.spectrum = Periodogram(max(rows.stop - rows.start for rows in o.segments), r.rate, excluded)
+        self.blocks = BlockScores(self.dictionary.first_order, prepared.observation.record.time)
 
     def collect(self, further: Callable[[Piece, Array], T]) -> list[T]:
         """Count in the whole flight, in one pass; what ``further`` makes of every segment and its whitened, projected residual."""
@@ -132,7 +125,6 @@ class Scores:
             self.square += float(y @ y)
             self.samples += int(np.sum(piece.observation.record.valid))
             self.blocks.level(piece, y)
-            self.spectrum.add(piece, y)
             right = np.column_stack([y, Q])
             for at, x, X in self._whiten_chunks(piece, self.dictionary.terms):
                 inner = X @ right
@@ -193,21 +185,24 @@ def make_dictionary(x: PreparedFlight) -> Dictionary:
 
 
 def choose(s: Scores) -> Omnibus:
-    """What is left of a flight: steady terms, or else one that comes and goes, or a line."""
+    """What is left of a flight: steady terms, or else one that comes and goes."""
     steady = pursue(s)
-    others = [t for t in (_find_varying(s), _find_line(s)) if t is not None]
-    log_p = min([steady.log_p, *(p for p, _ in others)])
-    significant = [(p, t) for p, t in others if p < np.log(FAMILY)]
-    terms = tuple(f for _, f in sorted(significant, key=lambda x: x[0]))
-    varying = tuple(f for f in terms if f.kind == "varying")
-    steady = replace(steady, log_p=log_p, steady=steady.terms, varying=varying)
-    if steady.terms or not significant:
+    steady = replace(steady, steady=steady.terms)
+    found = _find_varying(s)
+    if found is None:
         return steady
-    return replace(steady, terms=terms, chi2=max(f.chi2 for f in terms))
+    log_p, varying = found
+    steady = replace(steady, log_p=min(steady.log_p, log_p))
+    if log_p >= np.log(FAMILY):
+        return steady
+    steady = replace(steady, varying=(varying,))
+    return steady if steady.terms else replace(steady, terms=(varying,), chi2=varying.chi2)
 
 
 def _find_varying(s: Scores) -> tuple[float, ResidualTerm] | None:
-    """The term that varies most; one that the model has, with one coefficient for the whole flight, may vary as well as any other."""
+    """The logarithm of its p-value, and the term that varies most; one that the model has, with one coefficient for the whole flight, may
+    vary as well as any other.
+    """
     v = s.blocks.best(s.norm2 > 0.0)
     if v is None:
         return None
@@ -218,26 +213,7 @@ def _find_varying(s: Scores) -> tuple[float, ResidualTerm] | None:
     varying = ResidualTerm(
         term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying", v.how, rank=v.rank
     )
-    return min(0.0, v.log_p - float(np.log(SHARES[1]))), varying
-
-
-def _find_line(s: Scores) -> tuple[float, ResidualTerm] | None:
-    """The strongest line of the residual, if it is not next to one that was taken out (of one that wanders something stays)."""
-    if s.prepared.observation.recorded.demodulated:
-        return None  # their noise is only white within the demodulator's band
-    line = s.spectrum.best()
-    if line is None:
-        return None
-    log_p, frequency, share = line
-    width = compute_line_width(s.prepared.observation)
-    if any(abs(frequency - q.frequency) < width for q in s.prepared.noise.lines):
-        return None
-    # back from the whitened residual: the noise's own density at the line
-    volts2 = float(s.prepared.noise_psd(np.array([frequency]))[0])
-    amplitude = float(np.sqrt(share * volts2 * s.prepared.observation.record.rate))
-    return min(0.0, log_p - float(np.log(SHARES[2]))), ResidualTerm.of_line(
-        frequency, amplitude, share * s.square
-    )
+    return min(0.0, v.log_p - float(np.log(SHARE))), varying
 
 
 def pursue(s: Scores, tried: int = 0) -> Omnibus:
@@ -327,7 +303,7 @@ def _log_p(z: Array, tried: int, freedom: Array | float = np.inf) -> float:
         least = log_sf_t(float(np.max(size, initial=0.0)), float(freedom))
     else:
         least = min(log_sf_t(float(x), float(f)) for x, f in zip(size, np.asarray(freedom), strict=True))
-    return min(0.0, least + float(np.log(2 * max(tried, 1) / SHARES[0])))
+    return min(0.0, least + float(np.log(2 * max(tried, 1) / SHARE)))
 
 
 @dataclass(frozen=True)

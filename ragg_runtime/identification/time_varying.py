@@ -1,4 +1,4 @@
-"""What in a residual is no steady term: terms that come and go, and lines of its spectrum.
+"""What in a residual is no steady term: terms that come and go.
 
 The coefficient of a term may not be the same throughout a flight. Four questions are asked of every term, on its scores in short
 intervals of time: do the coefficients fitted in each block of time scatter; does it act in one window only; does it jump; does it swing
@@ -14,10 +14,9 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from ragg_runtime.estimation.observation import make_block_edges
-from ragg_runtime.estimation.scores import log_sf, log_sf_f
+from ragg_runtime.estimation.scores import log_sf
 from ragg_runtime.estimation.whitening import Piece
 
 Array = NDArray[np.float64]
@@ -167,48 +166,3 @@ def _find_largest(
 def _divide(a: Array, b: Array) -> Array:
     """a / b, zero where b is not positive."""
     return np.asarray(np.where(b > 0.0, a / np.where(b > 0.0, b, 1.0), 0.0))
-
-
-# --- a line in the spectrum of the whitened residual, against its level nearby
-
-NEIGHBOURS = 200  # bins of the spectrum that tell the level about one of them
-LOWEST_BIN = 4  # first bin that may be a line: those below are bent by what a fit takes out
-
-
-class Periodogram:
-    """Mean periodogram of the whitened residual over the segments of a flight, without the ``excluded`` frequencies, Hz."""
-
-    def __init__(self, length: int, rate: float, excluded: tuple[float, float] | None) -> None:
-        self.length, self.rate, self.excluded = length, rate, excluded
-        self.sum = np.zeros(length // 2 + 1)
-        self.count = 0
-
-    def add(self, piece: Piece, y: Array) -> None:
-        """Count in a segment; ``y`` (rows,) holds one output after the other."""
-        valid = piece.observation.record.valid
-        if np.sum(valid) < len(valid) / 2:
-            return
-        for part in np.split(y, len(piece.observation.series)):
-            grid = np.zeros(len(valid))
-            grid[valid] = part
-            self.sum += np.abs(np.fft.rfft(grid, self.length)) ** 2 / np.sum(valid)
-            self.count += 1
-
-    def best(self) -> tuple[float, float, float] | None:
-        """Of the strongest line the logarithm of its p-value, its frequency, Hz, and the share of the power that is in it."""
-        f = np.arange(len(self.sum)) * self.rate / self.length
-        free = (np.arange(len(f)) >= LOWEST_BIN) & (np.arange(len(f)) < len(f) - 1)
-        if self.excluded is not None:
-            free &= (f < self.excluded[0]) | (f > self.excluded[1])
-        if self.count == 0 or np.sum(free) <= 2 * NEIGHBOURS:
-            return None
-        P = np.where(free, self.sum / self.count, 0.0)
-        size = NEIGHBOURS + 1
-        weight = ndimage.uniform_filter1d(free.astype(np.float64), size, mode="constant") * size - free
-        level = (ndimage.uniform_filter1d(P, size, mode="constant") * size - P) / np.maximum(weight, 1.0)
-        ratio = np.where(free & (weight > NEIGHBOURS / 2), P / np.maximum(level, 1e-300), 0.0)
-        k = int(np.argmax(ratio))
-        freedom = 2 * self.count
-        log_p = log_sf_f(float(ratio[k]), freedom, freedom * float(weight[k])) + float(np.log(np.sum(free)))
-        share = 2.0 * (P[k] - level[k]) / float(self.length)
-        return min(0.0, log_p), float(f[k]), float(np.clip(share, 0.0, 1.0))

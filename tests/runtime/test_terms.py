@@ -107,7 +107,7 @@ def test_noise_raises_no_term(scored: tuple[Scores, Array, Array]) -> None:
         assert abs(np.mean(some**2) - 1.0) < 0.05
     p = np.array([omnibus._log_p(column, int(np.sum(good))) for column in z.T])
     for level in (0.05, 0.2):
-        alarms = np.sum(p + np.log(omnibus.SHARES[0]) < np.log(level))
+        alarms = np.sum(p + np.log(omnibus.SHARE) < np.log(level))
         assert alarms <= stats.binom.ppf(0.999, draws, level)
 
 
