@@ -141,8 +141,6 @@ RULES = (
          "strong 4-Hz, ten 4-Hz", {"estimation.fitted.leave_out_extrapolated": lambda model, p, observations: list(observations)}),
     Rule("better-kind", "an effect that only its name adds, and that explains more than its special case, is named",
          "outside white, outside ramp", {"identification.verdict._find_better_kind": _always(None)}),
-    Rule("held-out", "held-out blocks do not speak against a claim",
-         f"{OUTSIDE}, five white, quiet ramp", {"identification.claims.weigh_held_out": _always(0.0)}),
     Rule("robust", "a claim is significant with the variance that its scores tell",
          f"{OUTSIDE}, quiet with-ax, quiet along-axes, quiet ramp, five along-axes",
          {"identification.verdict._is_significant": _always(True)}),
