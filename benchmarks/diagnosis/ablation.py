@@ -1,7 +1,7 @@
 """What each rule of the diagnosis is worth: the same 40 flights with it and without it.
 
 A rule is switched off by putting something neutral in the place of a function or a constant of today's code. Flights: 20 of the kinds
-that the rule was written for, and the same 20 of all kinds for every rule, which are flown with it once.
+that the rule was written for, by id those that are known to be lost without it, and the same 20 of all kinds for every rule, flown once.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 from unittest.mock import patch
 
@@ -47,14 +47,17 @@ class Rule:
 
     def flights(self) -> list[Spec]:
         """The 40 flights of a rule."""
-        chosen = [replace(s, index=s.index + 100) for s in _spread(self.kinds)]
-        return [*chosen, *_spread(ALL)]
+        return [*_spread(self.kinds, 100), *_spread(ALL, 0)]
 
 
-def _spread(kinds: str) -> list[Spec]:
-    """Half of the flights, kinds in turn."""
-    pairs = [k.split() for k in kinds.split(", ")]
-    return [Spec(*pairs[n % len(pairs)], n // len(pairs), plan.ABLATION) for n in range(HALF)]
+def _spread(kinds: str, first: int) -> list[Spec]:
+    """Half of the flights: those that are named, and kinds in turn, from a number on."""
+    names = kinds.split(", ")
+    ids = (x.split("/") for x in names if "/" in x)
+    known = [Spec(kind, record, int(n), int(sample)) for sample, kind, record, n in ids]
+    pairs = [n.split() for n in names if "/" not in n]
+    others = (Spec(*pairs[n % len(pairs)], first + n // len(pairs), plan.ABLATION) for n in range(HALF))
+    return [*known, *others][:HALF]
 
 
 def _always(value: Any) -> Callable[..., Any]:
@@ -88,17 +91,18 @@ RULES = (
     Rule("off-sheet", "priors are widened where the record requires it",
          f"{OFF}, ten elsewhere", {"estimation.fitted.widen_priors": _always(None)}),
     Rule("time-varying", "generic terms that come and go",
-         f"{OUTSIDE}, quiet ramp", {"identification.omnibus._find_varying": _always(None)}),
+         f"{OUTSIDE}, quiet ramp, 4412/outside/heavy-tails/013", {"identification.omnibus._find_varying": _always(None)}),
     Rule("nonlinear-selection", "strong effects are derived into the model one after the other",
          STRONG, {"identification.strong.STRONG": np.inf}),
     Rule("contenders", "of a strong effect up to three contenders are fitted in the model",
          STRONG, {"identification.strong.CONTENDERS": 1}),
     Rule("impossible", "an effect that is possible at one size only is excluded at another",
-         f"{OUTSIDE}, off-sheet white, strong white", {"identification.strong.find_impossible": _always(())}),
+         f"{OUTSIDE}, off-sheet white, strong white, 4412/quiet/noiseless/097", {"identification.strong.find_impossible": _always(())}),
     Rule("sets", "after each addition the most probable set of as many effects takes the place of what is chosen",
          "pair white, pair red, pair elsewhere, outside white", {"identification.selection._choose_set": lambda f, chosen: chosen}),
     Rule("switching", "samples at which a switch's side is open, and the ends of late motion, are left out",
-         "strong white, ten white, pair elsewhere", {"estimation.fitted.leave_out_uncertain": lambda m, i, o: list(o)}),
+         "strong white, ten white, pair elsewhere, 4420/strong/white/078",
+         {"estimation.fitted.leave_out_uncertain": lambda m, i, o: list(o)}),
     Rule("step-instant", "the instant of a step is refined to the sample, through the filter",
          "ten white, strong red, quiet jump", {"identification.steps._refine": lambda f, step, *a: step,
           "identification.steps._sharpen": lambda f, step, *a: step}),
@@ -126,23 +130,24 @@ RULES = (
     Rule("motion-spikes", "spikes of the motion record are marked and interpolated",
          "quiet codes, quiet stuck, quiet recorded-motion, quiet sensors-1-mg", {"screening.screen.leave_out_glitches": _first}),
     Rule("claims-ratio", "beside a remainder claims explain plainly more than generic terms do",
-         f"{OUTSIDE}, off-sheet red, strong white", {"identification.claims.MORE": 0.0}),
+         f"{OUTSIDE}, off-sheet red, strong white, 4412/outside/4-Hz/018, 4412/outside/gaps/003", {"identification.claims.MORE": 0.0}),
     Rule("claims-beside", "claims beside a remainder at all",
          f"{OUTSIDE}, off-sheet red, strong white", {"identification.claims.MORE": np.inf}),
     Rule("claims-evidence", "the log evidence of claims is ahead of that of generic terms",
          f"{OUTSIDE}, five white, pair red", {"identification.verdict._measure_lead": _always(1e6)}),
     Rule("sheet-as-said", "effects beside a sheet as sure as it says compete with a sheet that is less sure",
-         f"{WEAK}, {OFF}, quiet white, quiet red", {"identification.strong._with_priors_of_sheet": _always(None)}),
+         f"{WEAK}, {OFF}, quiet white, quiet red, 4412/pair/along-axes/008",
+         {"identification.strong._with_priors_of_sheet": _always(None)}),
     Rule("needed", "which coefficients a strong effect needs is seen about the values of a fit",
          STRONG, {"identification.strong._test_about_values": _always({})}),
     Rule("settled", "columns of effects that are chosen together are each the best beside those of the others",
          "pair white, pair red, pair bump", {"identification.selection._settle_blocks": lambda f, blocks: blocks}),
     Rule("extrapolated", "ends that a model with derivatives does not fit are left out",
-         "strong 4-Hz, ten 4-Hz", {"estimation.fitted.leave_out_extrapolated": lambda model, p, observations: list(observations)}),
+         "strong 4-Hz, ten 4-Hz, 4412/strong/4-Hz/002", {"estimation.fitted.leave_out_extrapolated": lambda m, p, o: list(o)}),
     Rule("better-kind", "an effect that only its name adds, and that explains more than its special case, is named",
-         "outside white, outside ramp", {"identification.verdict._find_better_kind": _always(None)}),
+         "outside white, outside ramp, 4412/outside/bump/023", {"identification.verdict._find_better_kind": _always(None)}),
     Rule("robust", "a claim is significant with the variance that its scores tell",
-         f"{OUTSIDE}, quiet with-ax, quiet along-axes, quiet ramp, five along-axes",
+         f"{OUTSIDE}, quiet with-ax, quiet along-axes, quiet ramp, five along-axes, 4412/quiet/heavy-tails/064, 4412/pair/elsewhere/016",
          {"identification.verdict._is_significant": _always(True)}),
     Rule("effective-number", "effects that are alike count as fewer tests",
          f"{WEAK}, quiet ramp, quiet along-axes",
