@@ -24,13 +24,13 @@ from ragg_runtime.base.errors import (
     did_you_mean,
     read_name,
 )
-from ragg_runtime.instrument.demodulation import read_demodulation
 from ragg_runtime.instrument.instrument import (
     DISC_UNITS,
     PARAMETER,
     EffectSetting,
     Instrument,
     Vector,
+    read_demodulation,
     read_form,
 )
 from ragg_runtime.instrument.layout import (

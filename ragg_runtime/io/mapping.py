@@ -29,7 +29,7 @@ from ragg_runtime.base.errors import (
     read_name,
 )
 from ragg_runtime.base.files import read_text
-from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
+from ragg_runtime.instrument.instrument import Demodulation, read_demodulation
 from ragg_runtime.instrument.units import read_quantity, read_si, units
 from ragg_runtime.io.instants import (
     MIDNIGHT,

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.demodulation import Demodulation
+from ragg_runtime.instrument.instrument import Demodulation
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -16,7 +16,7 @@ import pyarrow.compute as pc
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.instrument.demodulation import Demodulation
+from ragg_runtime.instrument.instrument import Demodulation
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io.record import SI_UNITS, Array, Mask
 

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from generated import folded
-from ragg_runtime.instrument.demodulation import OURS, Demodulation
-from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.instrument import OURS, Demodulation, Instrument
 from ragg_runtime.instrument.layout import Layout, Output, Vector3, gain
 from ragg_runtime.io import Flight
 from ragg_runtime.io.record import DEMODULATED, RATES, SPECIFIC_FORCE

@@ -31,8 +31,7 @@ from ragg_runtime.identification import formula, omnibus, selection, strong
 from ragg_runtime.identification.comparison import Comparison, compare
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.selection import make_problem
-from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
-from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.instrument import Demodulation, Instrument, read_demodulation
 from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.io.mapping import parse_mapping
