@@ -36,8 +36,6 @@ def draw(s: State, a: Asked) -> bytes:
         raise UserError("there is no such flight", found=str(a.flight + 1))
     plot: Plot | None
     match kind:
-        case "compensated":
-            plot = panels.plot_compensated(s.require("compensated").series)
         case "columns":
             plot = panels.plot_columns(s.flights[a.flight])
         case "steps":

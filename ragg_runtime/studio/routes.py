@@ -269,8 +269,6 @@ ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {
     "undo": lambda session, body: session.go("undo"),
     "redo": lambda session, body: session.go("redo"),
     "restore": lambda session, body: session.go("restore", body["step"]),
-    "compensate": lambda session, body: session.compensate(body["calibration"], body["demodulator"]),
-    "calibrate": lambda session, body: session.calibrate(),
     "cancel": lambda session, body: session.jobs.cancel(),
 }
 """What the page can do, by the last part of the address."""

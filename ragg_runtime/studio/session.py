@@ -12,7 +12,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
 from ragg_runtime import api
-from ragg_runtime.api import Compensation, Held, Loaded
+from ragg_runtime.api import Held, Loaded
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.progress import PASSES
@@ -29,9 +29,7 @@ T = TypeVar("T")
 # announces a part of some work: its name, and the samples that it goes through
 Part = Callable[[str, float], None]
 
-NOTHING: Mapping[str, None] = MappingProxyType(
-    dict.fromkeys(("compared", "diagnosed", "held", "previous", "compensated"))
-)
+NOTHING: Mapping[str, None] = MappingProxyType(dict.fromkeys(("compared", "diagnosed", "held", "previous")))
 """What is known of another model or other flights."""
 
 
@@ -62,7 +60,6 @@ class State:
     diagnosed: Diagnosis | None = None
     held: Held | None = None
     previous: Comparison | None = None
-    compensated: Compensation | None = None
 
     def require(self, name: str) -> Any:
         """A result of the state by name; UserError if there is none yet."""
@@ -102,7 +99,6 @@ REMEDIES = {
     "compared": "open a flight and wait until it is compared",
     "diagnosed": "wait until every effect is tested",
     "previous": "derive an effect into the model first",
-    "compensated": "compensate the flights under Compensation",
 }
 
 
@@ -123,15 +119,6 @@ class Session:
 
     def _forget(self, **changes: object) -> None:
         self._put(**{**NOTHING, **changes})
-
-    def _work(self, name: str, command: str, do: Callable[[State], Mapping[str, object]]) -> None:
-        """Run something that takes as long as a command in the background, and put its result into the state."""
-
-        def work(part: Part) -> None:
-            part(name, PASSES[command] * self.state.samples)
-            self._put(**do(self.state))
-
-        self.jobs.start(name, work)
 
     def open(self, model: Path | None, flights: Sequence[Path]) -> None:
         """Open a model directory and flights (``None``, none: those that are open stay), and look at them."""
@@ -260,21 +247,6 @@ class Session:
         if to is None or not 0 <= to < len(history) or not history[to].text:
             raise UserError(f"there is nothing to {action}")
         self._change(api.change(m, history[to].text, action, str(to)))
-
-    def compensate(self, kind: str, demodulator: str) -> None:
-        """Compensate the flights that are open."""
-        self.state.require("compared")
-
-        def do(s: State) -> dict[str, object]:
-            return {"compensated": api.compensate(s.model, s.flights, kind, demodulator)}  # type: ignore[arg-type]
-
-        self._work("compensating", "compare", do)
-
-    def calibrate(self) -> None:
-        """Keep the parameters fitted to these flights with the model, as ``ragg calibrate --save``."""
-        flights = self.state.fitted
-        do = lambda s: {"loaded": api.calibrate(s.model, flights, save=True).loaded}  # noqa: E731
-        self._work("calibrating", "compare", do)
 
     def _idle(self, flight: int | None = None) -> State:
         """The state, if nothing is being worked on (else Busy) and there is such a flight (else UserError)."""

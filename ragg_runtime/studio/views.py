@@ -7,10 +7,8 @@ import json
 import math
 import re
 import shlex
-import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import lru_cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -26,8 +24,8 @@ from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
 from ragg_runtime.io.record import LEFT_OUT
 from ragg_runtime.report import pages, panels
 from ragg_runtime.studio.session import Branches, State
-from ragg_runtime.wording import describe, describe_other, numbers
-from ragg_runtime.wording.sections import Section, Table
+from ragg_runtime.wording import describe, numbers
+from ragg_runtime.wording.sections import Section, Table, render_html
 
 Json = dict[str, Any]
 
@@ -42,37 +40,23 @@ def describe_state(s: State) -> Json:
         "unread": [] if s.flights else [str(p) for p in s.paths],
         "verdict": None if d is None else d.verdict,
         "error": None if c is None else c.as_json()["error"],
-        "result": [] if c is None else show_sections(_describe_result(s, c, d)),
+        "result": [] if c is None else _show_result(s, c, d),
         "effects": [] if d is None else show_effects(d),
-        "parameters": None if c is None else show_sections(panels.describe_parameters(c.fitted)),
+        "parameters": None if c is None else render_html(panels.describe_parameters(c.fitted)),
         "validation": None if s.held is None else _show_validation(s),
         "sheet": None if m is None else show_sheet(m.instrument),
         "history": None if m is None else _show_history(m),
-        "compensated": None if s.compensated is None else _show_compensation(s),
         "before": s.previous is not None and c is not None,
     }
 
 
-def _describe_result(s: State, c: Comparison, d: Diagnosis | None) -> Sequence[Section]:
-    """The sections of the diagnosis; until it is made, those of the comparison."""
+def _show_result(s: State, c: Comparison, d: Diagnosis | None) -> list[str]:
+    """Verdict and errors, and all other sections, of the diagnosis; until it is made, of the comparison."""
     if d is None:
-        return describe.describe_comparison(c.as_json(), [x.name for x in s.fitted])
-    # the effects stand beside it, with their evidence
-    return [x for x in describe.describe_diagnosis(d.as_json()) if x.title != "Evidence"]
-
-
-def show_table(t: Table) -> Json:
-    """A table for the page."""
-    return {"heads": t.heads, "rows": t.rows, "words": t.words, "note": t.note}
-
-
-def show_sections(sections: Sequence[Section]) -> list[Json]:
-    """Sections for the page, which shows them as they are."""
-    names = ("title", "sentences", "code", "detail", "summary", "state")
-    return [
-        {n: getattr(s, n) for n in names} | {"table": {} if s.table is None else show_table(s.table)}
-        for s in sections
-    ]
+        sections = describe.describe_comparison(c.as_json(), [x.name for x in s.fitted])
+    else:  # the effects stand beside it, with their evidence
+        sections = tuple(x for x in describe.describe_diagnosis(d.as_json()) if x.title != "Evidence")
+    return [render_html(sections[:2]), render_html(sections[2:])]
 
 
 # --- model, sheet, history -----------------------------------------------------------------------------
@@ -83,21 +67,8 @@ def _show_model(m: Loaded) -> Json:
         "name": m.name,
         "path": str(m.directory.path),
         "notes": list(m.notes),
-        "calibrated": _describe_kept(m),
         "effects": [{"id": e.id, "title": e.title} for e in m.model.effects],
-        "spin_Hz": m.instrument.spin_frequency,
     }
-
-
-def _describe_kept(m: Loaded) -> str | None:
-    """The origin of the saved calibration, or why it does not count; ``None``: there is none."""
-    if m.directory.calibration is None:
-        return None
-    try:
-        saved = api.saved_calibration(m)
-    except UserError as e:
-        return f"not used: {e.what}"
-    return f"of {saved.time[:16].replace('T', ' ')} UTC, on {numbers.join_names(list(saved.flights))}"
 
 
 def show_sheet(i: Instrument) -> Json:
@@ -121,7 +92,11 @@ def show_sheet(i: Instrument) -> Json:
                 "fixed": q.name in i.fixed,
             }
         )
-    return {"names": list(i.layout.names), "rows": rows, "discs": show_table(_tabulate_discs(i))}
+    return {
+        "names": list(i.layout.names),
+        "rows": rows,
+        "discs": render_html([Section("Discs", table=_tabulate_discs(i))]),
+    }
 
 
 def _tabulate_discs(i: Instrument) -> Table:
@@ -230,20 +205,11 @@ def show_effects(d: Diagnosis) -> list[Json]:
     return entries
 
 
-def _show_validation(s: State) -> list[Json]:
+def _show_validation(s: State) -> str:
     """The test of the calibration on the flights kept for validation."""
     result: Any = s.held
     names = [x.name for x in s.flights[len(s.flights) - s.kept :]]
-    return show_sections(describe.describe_held(result.as_json(), names))
-
-
-def _show_compensation(s: State) -> Json:
-    c = s.require("compensated")
-    return {
-        "calibration": c.result["calibration"],
-        "demodulator": c.result["demodulator"]["name"],
-        "sections": show_sections(describe_other.describe_compensation(c.as_json(), "")),
-    }
+    return render_html(describe.describe_held(result.as_json(), names))
 
 
 _BOLD = re.compile(r"\\(bm|boldsymbol)\b")
@@ -285,11 +251,9 @@ def list_commands(s: State) -> list[str]:
         lines.append(f"ragg calibrate {model} {fitted} --save")
     if s.kept:
         lines.append(f"ragg compare {model} {validation} --frozen")
+    if s.paths:
+        lines.append(f"ragg compensate {model} {files} -o compensated.csv --calibration frozen")
     lines.append(f"ragg export {model} model-c --c")
-    if s.compensated is not None:
-        result = s.compensated.result
-        options = f"--calibration {result['calibration']} --demodulator {result['demodulator']['name']}"
-        lines.append(f"ragg compensate {model} {files} -o compensated.csv {options}")
     cuts = [(x.name, c) for x, cuts in zip(s.flights, s.cuts, strict=True) for c in cuts]
     # a name of several lines would go on as a command
     return [
@@ -311,13 +275,12 @@ def _list_done(s: State, model: str, flights: str) -> list[str]:
     return [one_line(x) for x in lines]
 
 
-def take_away(s: State, what: str) -> tuple[str, bytes]:
+def take_away(s: State, what: str) -> tuple[str, str]:
     """(media type, content) of a file to download."""
     if what not in FILES:
         raise UserError("there is no such file", found=what[:40], expected=", ".join(FILES))
     kind, make = FILES[what]
-    content = make(s)
-    return kind, content.encode() if isinstance(content, str) else content
+    return kind, make(s)
 
 
 def _make_source(s: State, command: str) -> api.Source:
@@ -332,25 +295,17 @@ def _write_steps(s: State) -> str:
     return pages.write_addition(steps, before, after, _make_source(s, "history"), s.diagnosed)
 
 
-def _write_compensated(s: State) -> bytes:
-    with tempfile.TemporaryDirectory(prefix="ragg-") as folder:
-        path = Path(folder, "compensated.csv")
-        s.require("compensated").write(path)
-        return path.read_bytes()
-
-
 def _write_json(s: State, name: str, command: str) -> str:
     document = s.require(name).as_json() | _make_source(s, command).as_json()
     return json.dumps(document, indent=1, allow_nan=False) + "\n"
 
 
-FILES: Mapping[str, tuple[str, Callable[[State], str | bytes]]] = {
+FILES: Mapping[str, tuple[str, Callable[[State], str]]] = {
     "compare.html": ("text/html", lambda s: pages.write_comparison(s.require("compared"), _make_source(s, "compare"))),
     "diagnosis.html": ("text/html", lambda s: pages.write_diagnosis(s.require("diagnosed"), _make_source(s, "diagnose"))),
     "steps.html": ("text/html", _write_steps),
     "compare.json": ("application/json", lambda s: _write_json(s, "compared", "compare")),
     "diagnosis.json": ("application/json", lambda s: _write_json(s, "diagnosed", "diagnose")),
-    "compensated.csv": ("text/csv", _write_compensated),
     "model.toml": ("application/toml", lambda s: s.model.directory.text),
     "commands.sh": ("text/plain", lambda s: "#!/bin/sh\n" + "\n".join(list_commands(s)) + "\n"),
 }  # fmt: skip

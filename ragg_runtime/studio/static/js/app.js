@@ -1,15 +1,15 @@
 // The page: tabs, keys, what the server is doing, and which view is open.
 //
-// Imports go down alone: app -> loop, model, files, apply -> effects, figures -> store, api, dom.
+// Imports go down alone: app -> loop, model, files, take -> effects, figures -> store, api, dom.
 //   dom     elements, numbers, MathML                     api     what the server is asked; actions, and what went wrong
 //   store   what is known (server) and looked at (view)
-import { applyView, takeView } from "./apply.js";
 import { ask, doing, events, Refused, trouble } from "./api.js";
 import { filesView } from "./files.js";
 import { fill, h, keys } from "./dom.js";
 import { historyView, parametersView, sheetView } from "./model.js";
 import { known, look, on, recall, server, view } from "./store.js";
 import { loopView } from "./loop.js";
+import { takeView } from "./take.js";
 
 const VIEWS = [
   ["loop", "Diagnosis", loopView],
@@ -17,7 +17,6 @@ const VIEWS = [
   ["sheet", "Test sheet", sheetView],
   ["history", "History", historyView],
   ["files", "Files", filesView],
-  ["apply", "Compensation", applyView],
   ["take", "Export", takeView],
 ];
 const $ = (id) => document.getElementById(id);
@@ -165,7 +164,7 @@ document.documentElement.dataset.ready = "yes";
 // The keys, in a dialog.
 
 const HELP = [
-  ["1 … 7", "the views, from left to right"],
+  ["1 … 6", "the views, from left to right"],
   ["j, k", "next and previous effect"],
   ["Space", "tick or untick the effect"],
   ["Enter", "on an effect: open or close what is known of it"],

@@ -2,7 +2,7 @@
 import { doing } from "./api.js";
 import { effectsPane } from "./effects.js";
 import { figures } from "./figures.js";
-import { fill, h, pictureNode, sectionNode } from "./dom.js";
+import { fill, h, pictureNode, sections } from "./dom.js";
 import { look, on, server } from "./store.js";
 
 export function loopView(main) {
@@ -25,14 +25,10 @@ function banner(box) {
   const known = () => {
     const { state } = server;
     if (!state || !state.result.length) return void ((shown = ""), begin(state));
-    const [verdict, errors] = state.result, key = JSON.stringify([state.status.revision, verdict, errors]);
+    const [verdict] = state.result, key = JSON.stringify([state.status.revision, verdict]);
     if (key === shown) return;
     shown = key;
-    const [headline, ...lead] = verdict.sentences;
-    fill(box,
-      h(`div.verdict.${verdict.state}`, {}, h("p.headline", {}, headline), lead.map((t) => h("p.lead", {}, t))),
-      h("div.errors", {}, sectionNode({ ...errors, title: "" })),
-      state.history.steps.some((s) => s.after !== "–") ? pictureNode("steps", { of: state.status.revision }) : null);
+    fill(box, sections(verdict), state.history.steps.some((s) => s.after !== "–") ? pictureNode("steps", { of: state.status.revision }) : null);
   };
   const begin = (state) => {
     const busy = Boolean(state && state.status.job), flown = Boolean(state && state.flights.length);
@@ -52,12 +48,11 @@ function results(box) {
   return {
     known() {
       const { state } = server;
-      const sections = state ? [...state.result.slice(2), ...(state.validation || []).map((s) => ({ ...s, title: s.title || "Validation" }))] : [];
-      const key = JSON.stringify(sections);
+      const [, found] = (state && state.result) || [], validation = state && state.validation, key = JSON.stringify([found, validation]);
       if (key === shown) return; // what is unfolded stays so
       shown = key;
-      box.hidden = !sections.length;
-      fill(box, sections.map(sectionNode));
+      box.hidden = !(found && found.trim()) && !validation;
+      fill(box, validation ? [h("h2", {}, "Validation"), sections(validation)] : null, found ? sections(found) : null);
     },
   };
 }

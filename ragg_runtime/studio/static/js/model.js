@@ -1,6 +1,6 @@
 // What the record determines of the parameters, the test sheet, and the history.
 import { doing } from "./api.js";
-import { fill, h, number, pictureNode, sectionNode, tableNode } from "./dom.js";
+import { fill, h, number, pictureNode, sections } from "./dom.js";
 import { on, server, view } from "./store.js";
 
 export function parametersView(main) {
@@ -14,7 +14,8 @@ export function parametersView(main) {
     if (!p) return void fill(main, h("p.empty-note", {}, "The parameters are known once a flight is compared."));
     fill(
       main,
-      p.map((s) => h("section.card", {}, h("h2", {}, s.title), s.title.startsWith("Correlations") ? pictureNode("correlations", { flight: view.flight }) : null, sectionNode({ ...s, title: "", detail: s.title === "Every parameter" }))),
+      h("section.card", {}, sections(p)),
+      h("section.card", {}, h("h2", {}, "Correlations of the parameters"), pictureNode("correlations", { flight: view.flight, of: server.state.status.revision })),
     );
   };
   known();
@@ -62,7 +63,7 @@ export function sheetView(main) {
             h("td", {}, h("input", { type: "checkbox", checked: row.fixed, "aria-label": `${row.name} is not fitted`, onchange: (e) => edit(row, e.target, (now) => (now.fixed = e.target.checked)) })),
             h("td.n.quiet", {}, number(row.plausible[0], 3))))))),
         h("div.row", {}, save, revert)),
-      h("section.card", {}, h("h2", {}, "Discs"), h("p.note", {}, "From model.toml; edit them there."), tableNode(discs)),
+      h("section.card", {}, sections(discs), h("p.note", {}, "From model.toml; edit them there.")),
     );
 
   const sigmas = (text, count) => {
