@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,6 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.instrument.units import units
 from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.mapping import Mapped
@@ -21,15 +21,13 @@ from ragg_runtime.reference import simulate as reference
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues, find_channels, resolve
 from ragg_runtime.reference.geometry import Rotations
-from ragg_runtime.reference.motion import MotionSignals, RecordedSignal, Sinusoids, Turning, recorded_motion
+from ragg_runtime.reference.motion import MotionSignals, RecordedSignal, Turning, recorded_motion
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion, perturb
 from ragg_runtime.reference.simulate import draw_rare, draw_usual, eotvos_noise
 from ragg_runtime.workspace import Loaded
 
 Array = NDArray[np.float64]
 
-# eleven days at 100 Hz: what is simulated is held in memory, some hundreds of bytes a sample
-MOST_SAMPLES = 1e8
 # mean and rms of a_x, a_y, a_z, mg: upright in light turbulence
 IN_FLIGHT = ((15.0, 20.0), (15.0, 20.0), (1000.0, 50.0))
 GEOLOGY = 20e-9  # rms of the varying gradient, each component, s^-2
@@ -50,7 +48,7 @@ def simulate(m: Loaded, effects: Sequence[str] = (), **options: Any) -> Flight:
         ``dryden``, ``kolmogorov`` or ``resonant``. ``sheet_error``: how far the true instrument is from its test sheet; 1 is usual.
         ``no_gradient``: whether the gravity gradient is left unrecorded, as on a survey. ``voltages``: whether they are recorded.
         ``motion``: a flight file whose motion and disc angles are flown, at its rate and duration (``mapping`` describes its
-        columns). ``spin``: of the discs (:data:`FORM`), if not steady as on the sheet; their encoders are then recorded.
+        columns). ``spin``: name of a disc -> how it turns, if not steadily as on the sheet; its encoder is then recorded.
 
     Returns
     -------
@@ -59,7 +57,7 @@ def simulate(m: Loaded, effects: Sequence[str] = (), **options: Any) -> Flight:
     Raises
     ------
     UserError
-        If an effect is unknown or a value is out of range.
+        If an effect is unknown.
     """
     return simulate_flight(m.instrument, effects, **options)
 
@@ -79,7 +77,7 @@ def simulate_flight(
     voltages: bool = False,
     motion: Path | str | None = None,
     mapping: Mapped | None = None,
-    spin: Sequence[str] = (),
+    spin: Mapping[str, Turning] = MappingProxyType({}),
 ) -> Flight:
     """As :func:`simulate`, of an instrument."""
     effects: dict[str, dict[str, Array]] = dict(_parse_effect(text, instrument) for text in hidden)
@@ -88,41 +86,29 @@ def simulate_flight(
         effects.setdefault("second-order-misalignment", {"kappa": np.array(0.0)})
     record, start = None, 0.0
     if motion is None:
-        flown = _draw_motion(seed, duration, rate, shape)
+        flown = draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape, linear=IN_FLIGHT)
     else:
         record = read_flight(motion, instrument.g0, need_output=False, mapping=mapping)
         start = find_start(record, instrument)
         flown, duration, rate = _take_motion(record, start)
-    try:
-        with np.errstate(over="ignore", invalid="ignore"):
-            s = reference.simulate(
-                perturb(instrument, np.random.default_rng([instrument_seed, 10]), sheet_error),
-                flown,
-                duration,
-                rate,
-                start=start,
-                gravity=draw_gradient(np.random.default_rng([seed, 13]), GEOLOGY),
-                record_gradient=not no_gradient,
-                noise=eotvos_noise(noise * 1e-9, instrument.radius, 0.05),
-                rotations=_ROTATIONS[form.mounting],
-                misalignment="exact" if form.misalignment == "exact" else "first-order",
-                kinematics=form.kinematics,
-                effects=effects,
-                seed=seed,
-                auxiliaries=_collect_auxiliaries(seed, effects, instrument.layout.size, record, start),
-                turning=parse_turning(spin, instrument.layout, record, start),
-            )
-        flight = s.flight("simulated", voltages=voltages)
-        valid = np.isfinite(list(flight.outputs.values()))
-        finite = bool(valid.all() if record is None else valid.any())  # a record that is flown may have gaps
-    except OverflowError:
-        finite = False
-    if not finite:
-        raise UserError(
-            "the simulated values are not finite",
-            remedy="choose a smaller --noise, --sheet-error, --spin or value of an effect",
-        )
-    return flight
+    s = reference.simulate(
+        perturb(instrument, np.random.default_rng([instrument_seed, 10]), sheet_error),
+        flown,
+        duration,
+        rate,
+        start=start,
+        gravity=draw_gradient(np.random.default_rng([seed, 13]), GEOLOGY),
+        record_gradient=not no_gradient,
+        noise=eotvos_noise(noise * 1e-9, instrument.radius, 0.05),
+        rotations=_ROTATIONS[form.mounting],
+        misalignment="exact" if form.misalignment == "exact" else "first-order",
+        kinematics=form.kinematics,
+        effects=effects,
+        seed=seed,
+        auxiliaries=_collect_auxiliaries(seed, effects, instrument.layout.size, record, start),
+        turning={**_take_turning(instrument, record, start), **spin},
+    )
+    return s.flight("simulated", voltages=voltages)
 
 
 # how the mounting of [model] order turns in the simulator
@@ -149,15 +135,12 @@ def _take_motion(x: Flight, start: float) -> tuple[MotionSignals, float, float]:
     return recorded_motion(x.time - x.time[0] + start, a, omega), len(x) / x.rate, x.rate
 
 
-def _draw_motion(seed: int, duration: float, rate: float, shape: str | None) -> MotionSignals:
-    if duration * rate > MOST_SAMPLES:
-        raise UserError(
-            "the flight is too long to be simulated",
-            found=f"{duration:g} s at {rate:g} Hz",
-            expected=f"at most {MOST_SAMPLES:.0e} samples",
-            remedy="simulate several shorter flights",
-        )
-    return draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape, linear=IN_FLIGHT)
+def _take_turning(instrument: Instrument, x: Flight | None, start: float) -> dict[str, Turning]:
+    """The discs whose angles a flight recorded, which begins at ``start``, s."""
+    if x is None:
+        return {}
+    time, columns = x.time - x.time[0] + start, {d.name: d.angle_column for d in instrument.layout.discs}
+    return {n: Turning.of_record(time, x.channels[c]) for n, c in columns.items() if c in x.channels}
 
 
 def _parse_effect(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:
@@ -196,50 +179,3 @@ def _parse_numbers(effect: DerivedEffect, name: str, text: str, instrument: Inst
     u = units(instrument.g0)
     si = np.asarray(u.to_si(raw, q.unit, u.base_unit(q.unit)))
     return si if len(si) == count and not q.shared else si[0]
-
-
-# a steady rate (negative: backwards, 0: none) and swings: amplitude, frequency, phase at the beginning
-FORM = "[DISC:]HZ[,RAD@HZ[@RAD]]..."
-
-
-def parse_turning(
-    texts: Sequence[str], layout: Layout, motion: Flight | None = None, start: float = 0.0
-) -> dict[str, Turning]:
-    """Name of a disc -> how it turns; ``texts`` are texts FORM, for the disc named or for all, before the angles of
-    ``motion``, which begins at ``start``, s.
-    """
-    turnings = {}
-    if motion is not None:
-        time = motion.time - motion.time[0] + start
-        angles = {d.name: d.angle_column for d in layout.discs if d.angle_column in motion.channels}
-        turnings = {name: Turning.of_record(time, motion.channels[c]) for name, c in angles.items()}
-    for text in texts:
-        name, colon, profile = text.rpartition(":")
-        names = [d.name for d in layout.discs]
-        if colon and name not in names:
-            raise UserError(
-                f"the instrument has no disc {name!r}",
-                where="--spin",
-                expected=", ".join(names) or "no name: the instrument has one disc",
-            )
-        turnings |= dict.fromkeys([name] if colon else names, _parse_profile(profile, text))
-    return turnings
-
-
-def _parse_profile(profile: str, text: str) -> Turning:
-    steady, *swings = profile.split(",")
-    try:
-        parts = [tuple(float(x) for x in s.split("@")) for s in swings]
-        numbers = [float(steady), *(x for s in parts for x in s)]
-        if any(len(s) not in (2, 3) or s[1] <= 0 for s in parts) or not np.all(np.isfinite(numbers)):
-            raise ValueError
-    except ValueError:
-        raise UserError(
-            "the spin of a disc is invalid",
-            where="--spin",
-            found=repr(text),
-            expected=FORM,
-            remedy="0.25,0.4@0.05 swings by 0.4 rad every 20 s about 0.25 Hz; 0: it does not spin",
-        ) from None
-    columns = np.transpose([(*s, 0.0)[:3] for s in parts])
-    return Turning(numbers[0], Sinusoids(0.0, *columns) if parts else None)

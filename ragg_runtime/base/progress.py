@@ -1,6 +1,6 @@
 """Passes over flights: in segments, with linear algebra on one thread, and how far a command is with them.
 
-Passes report (:func:`step`), a command listens (:func:`shown`). The unit is one sample in one pass with all columns, whitened;
+Passes report (:func:`step`), a command listens (:func:`listening`). The unit is one sample in one pass with all columns, whitened;
 ``PASSES`` are estimates.
 """
 
@@ -9,7 +9,6 @@ from __future__ import annotations
 import contextlib
 import functools
 import sys
-import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextvars import ContextVar
@@ -22,8 +21,6 @@ if TYPE_CHECKING:
 
 # passes over the flights that a command takes, about
 PASSES = {"compare": 9.0, "diagnose": 10.5, "add": 17.0}
-QUIET = 4.0  # a command that takes no longer than this shows no progress, s
-INTERVAL = 15.0  # time between two lines where stderr is a file, s
 
 _listener: ContextVar[Callable[[float], None] | None] = ContextVar("listener", default=None)
 
@@ -52,31 +49,18 @@ def listening(tell: Callable[[float], None]) -> Iterator[None]:
 
 @contextlib.contextmanager
 def show_progress(command: str, samples: int) -> Iterator[None]:
-    """Report on stderr the progress of ``command`` with flights of so many ``samples``: in one line that changes, or line by line."""
-    total, terminal = PASSES[command] * max(samples, 1), sys.stderr.isatty()
-    done, start = 0.0, time.monotonic()
-    due = first = start + (QUIET if terminal else INTERVAL)
+    """Show on a terminal how far ``command`` is with flights of so many ``samples``; nobody knows how much comes beyond the estimate."""
+    length = int(PASSES[command] * max(samples, 1))
+    with click.progressbar(length=length, file=sys.stderr, update_min_steps=length // 200) as bar:
 
-    def tell(amount: float) -> None:
-        nonlocal done, due
-        done += amount
-        now = time.monotonic()
-        if now >= due:
-            due = now + (1.0 if terminal else INTERVAL)
-            text = f"... {_describe(done / total, now - start)}"
-            click.echo(f"\r{text:<60}" if terminal else text, err=True, nl=not terminal)
+        def tell(amount: float) -> None:
+            assert bar.length is not None
+            if bar.pos + amount > 0.95 * bar.length:
+                bar.length = int(1.2 * (bar.pos + amount))
+            bar.update(int(amount))
 
-    with listening(tell):
-        yield
-    if terminal and due > first:
-        click.echo(f"\r{'':<60}\r", err=True, nl=False)
-
-
-def _describe(share: float, spent: float) -> str:
-    """``share``: of the passes estimated; nobody knows how many more there will be beyond them."""
-    if share > 0.99:
-        return f"{spent:.0f} s so far, longer than estimated"
-    return f"{100 * share:.0f} % done, about {spent * (1 / share - 1):.0f} s left"
+        with listening(tell):
+            yield
 
 
 P = ParamSpec("P")

@@ -14,7 +14,6 @@ from ragg_runtime.cli.shared import (
     PLACE,
     RESULT,
     Command,
-    Finite,
     Later,
     command_line,
     conclude,
@@ -240,11 +239,11 @@ def calibrate(
     show_default=True,
     help="fir: 0.2 Hz, no delay; butterworth: order 6, 0.18 Hz, forward and backward; causal: forward only.",
 )
-@click.option("--noise", type=Finite(0.0, min_open=True), metavar="EO/SQRT(HZ)",
+@click.option("--noise", type=click.FloatRange(0.0, min_open=True), metavar="EO/SQRT(HZ)",
               help="online: noise of the cross channel (default: from the saved calibration).")  # fmt: skip
-@click.option("--walk", type=Finite(0.0), metavar="EO/SQRT(S)",
+@click.option("--walk", type=click.FloatRange(0.0), metavar="EO/SQRT(S)",
               help="online: random walk of the gradient (default: as a low-pass of 0.2 Hz).")  # fmt: skip
-@click.option("--forget", type=Finite(0.0, min_open=True), metavar="S",
+@click.option("--forget", type=click.FloatRange(0.0, min_open=True), metavar="S",
               help="online: time constant of forgetting (default: never).")  # fmt: skip
 @mapping_option
 def compensate(

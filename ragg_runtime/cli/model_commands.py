@@ -15,8 +15,8 @@ from ragg_runtime.base.files import write_text
 from ragg_runtime.cli.main import cli
 from ragg_runtime.cli.shared import (
     PLACE,
+    RESULT,
     Command,
-    Finite,
     Later,
     command_line,
     conclude,
@@ -139,25 +139,18 @@ def history(model_dir: Path) -> None:
 )
 @click.option("--instrument-seed", type=click.IntRange(0), default=0, show_default=True,
               help="Seed of the true instrument: flights with the same seed share it.")  # fmt: skip
-@click.option("--duration", type=Finite(1.0), default=1800.0, show_default=True, help="s")
-@click.option("--rate", type=Finite(1.0), default=16.0, show_default=True, help="Hz")
-@click.option("--noise", type=Finite(0.0), default=2.0, show_default=True, help="Eo/sqrt(Hz)")
+@click.option("--duration", type=click.FloatRange(1.0, 1e6), default=1800.0, show_default=True, help="s")
+@click.option("--rate", type=click.FloatRange(1.0, 1000.0), default=16.0, show_default=True, help="Hz")
+@click.option("--noise", type=click.FloatRange(0.0), default=2.0, show_default=True, help="Eo/sqrt(Hz)")
 @click.option(
     "--shape", type=click.Choice(["flat", "dryden", "kolmogorov", "resonant"]), help="Spectrum of the motion."
 )
-@click.option("--sheet-error", type=Finite(0.0), default=1.0, show_default=True,
+@click.option("--sheet-error", type=click.FloatRange(0.0), default=1.0, show_default=True,
               help="How far the true instrument is from the test sheet (0: not at all).")  # fmt: skip
 @click.option(
     "--motion", type=PLACE, metavar="FILE", help="Motion to fly (a flight file; sets duration and rate)."
 )
 @mapping_option
-@click.option(
-    "--spin",
-    multiple=True,
-    metavar="[DISC:]HZ[,RAD@HZ[@RAD]]...",
-    help="Spin of a disc (default: all): rate (negative: reverse; 0: none) and swings of RAD at HZ from a phase. The encoder "
-    "is recorded. An encoder in --motion is used, too.",
-)
 @click.option(
     "--gradient/--no-gradient", default=False, show_default=True, help="Record the gravity gradient."
 )
@@ -226,9 +219,9 @@ def info(flight: Path, mapping: Path | None) -> None:
 
 @click.command(cls=Command)
 @click.argument("source", metavar="IN", type=PLACE)
-@click.argument("target", metavar="OUT", type=PLACE)
+@click.argument("target", metavar="OUT", type=RESULT)
 @mapping_option
-def convert(source: Path, target: Path, mapping: Path | None) -> None:
+def convert(source: Path, target: str, mapping: Path | None) -> None:
     """Write a flight file in another format.
 
     The ending of OUT selects it; numbers, names and units are unchanged. Reads CSV, Parquet, NetCDF, HDF5, MATLAB and Excel; writes
@@ -237,9 +230,7 @@ def convert(source: Path, target: Path, mapping: Path | None) -> None:
     from ragg_runtime.io.files import convert as _convert
     from ragg_runtime.io.mapping import read_mapping
 
-    if mapping is not None and mapping.resolve() == target.resolve():
-        raise UserError("OUT is the mapping itself", where=target, remedy="name another file")
-    done = _convert(source, target, None if mapping is None else read_mapping(mapping))
+    done = _convert(source, Path(target), None if mapping is None else read_mapping(mapping))
     for note in done["notes"]:
         click.echo(printable(f"note: {note}"), err=True)
     lines = f"{done['lines']} lines, " if done["lines"] > 1 else ""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import json
-import math
 import os
 import shlex
 import sys
@@ -44,16 +43,6 @@ STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 # commands that show the notes on the flights; the others, which come after, count them
 SHOW_NOTES = ("compare", "diagnose")
 OF_A_MODEL = ("model.toml", "history.json", "calibration.json", "mapping.toml")  # files of a model directory
-
-
-class Finite(click.FloatRange):
-    """A number in a range: neither infinite nor none."""
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        number = super().convert(value, param, ctx)
-        if not math.isfinite(number):
-            self.fail(f"{value!r} is not a finite number", param, ctx)
-        return number
 
 
 PLACE = click.Path(path_type=Path)  # of what is read
@@ -101,6 +90,8 @@ class Command(click.Command):
 
     def invoke(self, ctx: click.Context) -> Any:
         self._check_outputs(ctx)
+        if ctx.params.get("report_file") is not None:
+            import_module("matplotlib")  # before a long computation
         options = ("json_file", "report_file", "verbose")
         ctx.meta[__name__] = {k: ctx.params.pop(k, None) for k in options}
         return super().invoke(ctx)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import html
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ragg_runtime.base.errors import count, missing_package
+from ragg_runtime.base.errors import count
 from ragg_runtime.base.files import MISSING, list_versions
 from ragg_runtime.compensation.calibrate import Held
 from ragg_runtime.estimation.fitted import Fitted
@@ -20,33 +19,18 @@ from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io import Flight
 from ragg_runtime.report import panels
 from ragg_runtime.report.panels import describe_parameters
-from ragg_runtime.survey.result import Survey, find_trends
+from ragg_runtime.report.plots import draw_plot
+from ragg_runtime.survey.result import Survey
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import (
-    Axes,
     Bar,
     Bars,
-    Curve,
-    Curves,
     Plot,
     Section,
     make_environment,
     render_html,
 )
 from ragg_runtime.workspace import Source
-
-
-def _find_renderer() -> Callable[[Plot], str]:
-    """The function that draws a plot as SVG; without matplotlib it returns a line that names the extra."""
-    try:
-        from ragg_runtime.report.plots import draw_plot
-    except ModuleNotFoundError as error:
-        missing = missing_package(error)
-        if missing is None:
-            raise
-        text = html.escape(f"no figure: {missing.what} ({missing.remedy})")
-        return lambda plot: f"<p>{text}</p>"
-    return draw_plot
 
 
 def render_page(kind: str, sections: Sequence[Section], source: Source, f: Fitted | None = None) -> str:
@@ -57,7 +41,6 @@ def render_page(kind: str, sections: Sequence[Section], source: Source, f: Fitte
     if notes := tuple(source.notes):
         sections = [*sections, Section("What was done to the record", notes, detail=len(notes) > 3)]
     first, *further = sections
-    draw = _find_renderer()
     libraries = ", ".join(f"{n} {v}" for n, v in list_versions().items() if v != MISSING)
     model = f.model if f is not None else source.m and source.m.model
     page = make_environment("ragg_runtime.report", html=True).get_template("page.html.j2")
@@ -65,8 +48,8 @@ def render_page(kind: str, sections: Sequence[Section], source: Source, f: Fitte
         page.render(
             kind=kind,
             source=source,
-            first=render_html([first], draw),
-            others=render_html(further, draw),
+            first=render_html([first], draw_plot),
+            others=render_html(further, draw_plot),
             facts=[
                 *(panels.describe_record(f) if f is not None else ()),
                 ("derived model", model and model.digest),
@@ -161,13 +144,7 @@ def write_diagnosis(d: Diagnosis, source: Source) -> str:
     return render_page("What is missing", sections, source, d.fitted)
 
 
-def write_addition(
-    history: Sequence[Json],
-    before: Comparison,
-    after: Comparison,
-    source: Source,
-    diagnosis: Diagnosis | None = None,
-) -> str:
+def write_addition(history: Sequence[Json], before: Comparison, after: Comparison, source: Source) -> str:
     """The report of a step: the model without and with an effect, each calibrated on the flights; the step is the last of ``history``."""
     f = after.fitted
     old, new = ([e.id for e in c.fitted.model.effects] for c in (before, after))
@@ -189,9 +166,6 @@ def write_addition(
         *_draw("Demodulated channels", panels.plot_channels(f, lines), detail=True),
         *(replace(s, detail=True) for s in _add_failures([], after)),
     ]
-    if diagnosis is not None:
-        evidence = describe.describe_diagnosis(diagnosis.as_json())
-        sections += [replace(s, detail=True) for s in evidence if s.title == "Evidence"]
     return render_page("A step of the model", sections, source, f)
 
 
@@ -234,11 +208,8 @@ def write_info(
 def write_survey(s: Survey, source: Source, model_dir: Path | str = "MODEL_DIR") -> str:
     """The report of ``survey``; ``model_dir`` is named in the commands that come next."""
     summary = s.sections(model_dir)
-    trends = [_plot_trend(t, n) for n, t in enumerate(find_trends(s.done)[:6])]
     first = _add_plots(summary[0], _plot_errors(s) if s.done else None)
-    return render_page(
-        "Survey of flights", [first, *summary[1:], *_draw("The least constant parameters", *trends)], source
-    )
+    return render_page("Survey of flights", [first, *summary[1:]], source)
 
 
 def _plot_errors(s: Survey) -> Plot:
@@ -252,16 +223,3 @@ def _plot_errors(s: Survey) -> Plot:
     caption = "Error before demodulation of every flight, calibrated alone. Bars: with the effects found in it; grey: unexplained."
     log = max(values) > 6.0 * min(values)
     return Bars("errors", caption, tuple(bars), "error, Eo rms", log=log, dot="current model")
-
-
-def _plot_trend(t: Json, n: int) -> Plot:
-    """A calibrated parameter over the flights, less its mean, with one standard deviation."""
-    at = np.array([k for k, v in enumerate(t["values"], 1) if v is not None], dtype=np.float64)
-    v, std = (np.array([x for x in t[k] if x is not None]) for k in ("values", "stds"))
-    middle = numbers.with_unit(numbers.round_value(t["mean"], float(np.min(std))), t["unit"])
-    name = t["name"] if t["accelerometer"] is None else f"{t['name']}[{t['accelerometer']}]"
-    label, away = numbers.short(name, 44), v - t["mean"]
-    band = Curve("± 1 sigma", at, away - std, "envelope", "band", away + std)
-    axes = Axes((band, Curve("value", at, away)), numbers.unit(t["unit"]), f"{label} − {middle}")
-    caption = f"{label} over the flights."
-    return Curves(f"trend{n}", caption, (axes,), "number of the flight in the table", 1.5)

@@ -36,7 +36,7 @@ from ragg_runtime.io.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.signals import derivative
 from ragg_runtime.signals.demodulators import CUTOFF, WIDTH
 from ragg_runtime.wording import describe, describe_other, numbers
-from ragg_runtime.wording.sections import Axes, Bar, Bars, Curve, Curves, Matrix, Role, Section, Table
+from ragg_runtime.wording.sections import Axes, Bar, Bars, Curve, Curves, Matrix, Role, Section
 
 Array = NDArray[np.float64]
 Residuals = Sequence[Array]
@@ -485,7 +485,6 @@ def find_worst_channel(f: Fitted, n: int, residual: Array) -> str:
 
 
 SHARE = 0.03  # squared share of what is seen below which a direction is taken not to be seen
-LISTED = 16  # pairs that are listed, the most correlated first
 MOST_LABELS = 24  # directions of a matrix of correlations: beyond these nobody reads it
 
 
@@ -527,18 +526,16 @@ def describe_parameters(f: Fitted, *, values: bool = True) -> tuple[Section, ...
     ]
     if unseen := list_unseen(f):
         text.append(f"Not observable: {', '.join(unseen)}.")
-    matrix, pairs = correlate_parameters(f)
-    strongest = Table(("parameter", "and", "correlation"), tuple(pairs), words=2)
     lists = (list_combinations(f), list_parameters(f)) if values else None
     return (
         Section("What the record determines", tuple(text), detail=True, summary=determined),
         *(() if lists is None else describe_other.tabulate_parameters(*lists, detail=True)),
-        Section("Correlations of the parameters", table=strongest, plots=(matrix,), detail=True),
+        Section("Correlations of the parameters", plots=(correlate_parameters(f),), detail=True),
     )
 
 
-def correlate_parameters(f: Fitted) -> tuple[Matrix, list[tuple[str, str, str]]]:
-    """The matrix of correlations of the directions that the record constrains, and its largest entries.
+def correlate_parameters(f: Fitted) -> Matrix:
+    """The matrix of correlations of the directions that the record constrains.
 
     Of more than can be labelled in it, it has those with the largest correlations.
     """
@@ -548,10 +545,7 @@ def correlate_parameters(f: Fitted) -> tuple[Matrix, list[tuple[str, str, str]]]
     determined = np.flatnonzero(std < UNSEEN)
     r = (covariance / np.outer(std, std))[np.ix_(determined, determined)]
     labels = tuple(names[n] for n in determined)
-    i, j = np.triu_indices(len(r), 1)
-    strongest = np.argsort(-np.abs(r[i, j]), kind="stable")[:LISTED]
-    pairs = [(labels[i[k]], labels[j[k]], numbers.fixed(float(r[i[k], j[k]]), 3)) for k in strongest]
     caption = "Correlations of the calibrated parameters that this record determines, wholly or in part."
     largest = np.max(np.abs(r - np.eye(len(r))), axis=0, initial=0.0)
     index = np.sort(np.argsort(-largest, kind="stable")[:MOST_LABELS])
-    return Matrix("correlations", caption, tuple(labels[n] for n in index), r[np.ix_(index, index)]), pairs
+    return Matrix("correlations", caption, tuple(labels[n] for n in index), r[np.ix_(index, index)])

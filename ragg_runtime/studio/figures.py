@@ -63,7 +63,7 @@ def _draw_result(s: State, a: Asked, kind: str, channel: str) -> Plot | None:
             spread = draw_models(f, n) if a.spread and c is s.compared else None
             return panels.plot_window(f, n, residuals[n], a.window, spread)
         case "correlations":
-            return panels.correlate_parameters(f)[0]
+            return panels.correlate_parameters(f)
         case "whiteness":
             return panels.plot_whiteness(f, n, residuals[n])
         case "against":

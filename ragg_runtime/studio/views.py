@@ -292,7 +292,7 @@ def _write_steps(s: State) -> str:
     before, after = s.require("previous"), s.require("compared")
     history = s.model.directory.history
     steps = [history[n].as_json() for n in Branches(history).path]
-    return pages.write_addition(steps, before, after, _make_source(s, "history"), s.diagnosed)
+    return pages.write_addition(steps, before, after, _make_source(s, "history"))
 
 
 def _write_json(s: State, name: str, command: str) -> str:

@@ -190,12 +190,8 @@ def open_processes(jobs: int, flights: int) -> Iterator[tuple[Executor, int]]:
     jobs = min(jobs, flights)
     context = multiprocessing.get_context("spawn")  # the same on every system; no locks are inherited
     pool = ProcessPoolExecutor(jobs, context, initializer=_begin)
-    masks = hasattr(signal, "pthread_sigmask")
-    mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT]) if masks else None
     try:
         started = [pool.submit(os.getpid) for _ in range(jobs)]
-        if mask is not None:
-            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         if isinstance(started[0].exception(), BrokenProcessPool):
             raise UserError(
                 "no worker process can be started",

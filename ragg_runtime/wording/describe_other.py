@@ -83,7 +83,7 @@ def tabulate_parameters(
         "its uncertainty": lambda p: numbers.plain(p["sheet_sigma"], 3),
         "shift, σ of the sheet": lambda p: numbers.fixed((p["value"] - p["sheet"]) / p["sheet_sigma"], 2),
     }
-    note = " ".join((*explain_patterns(clear), *_explain_single(parameters)))
+    note = " ".join(explain_patterns(clear))
     summary = f"all {len(parameters)} parameters"
     best = tabulate(clear, value, words=2, note=note)
     table = tabulate(parameters, value | sheet, words=2)
@@ -91,17 +91,6 @@ def tabulate_parameters(
         Section("Best-determined combinations", table=best, detail=detail),
         Section("Every parameter", table=table, detail=True, summary=summary),
     )
-
-
-def _explain_single(parameters: Sequence[Json]) -> list[str]:
-    """A remark where a parameter is fitted for some accelerometers only: it means something else if all are fitted."""
-    fitted: dict[str, list[str]] = {}
-    for p in parameters:
-        if p["accelerometer"] is not None:
-            fitted.setdefault(str(p["name"]), []).append(label_parameter(p))
-    largest = max(map(len, fitted.values()), default=0)
-    single = [label for labels in fitted.values() if len(labels) < largest for label in labels]
-    return [f"Fitted with the other accelerometers' values held: {', '.join(single)}."] if single else []
 
 
 def _describe_drift(d: Json) -> Sections:

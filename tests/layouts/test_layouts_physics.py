@@ -13,7 +13,6 @@ import pytest
 from numpy.typing import NDArray
 
 from derive.effects import catalogue
-from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.instrument.units import EOTVOS, units
@@ -21,9 +20,10 @@ from ragg_runtime.io import Flight, read_flight, write_flight
 from ragg_runtime.model import derive
 from ragg_runtime.model.model import Model, evaluate_output, find_unit_factor, make_vector, scale_factor
 from ragg_runtime.model.record import Record, record
+from ragg_runtime.reference.motion import Sinusoids, Turning
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from ragg_runtime.reference.simulate import simulate
-from ragg_runtime.simulate import parse_turning, simulate_flight
+from ragg_runtime.simulate import simulate_flight
 from tests.layouts import sheets
 
 LAYOUTS: dict[str, tuple[Callable[[], list[str]], int]] = {
@@ -79,7 +79,15 @@ def test_derived_agrees_with_reference(name: str, head: str, kinematics: str, ro
     assert size / (i.scale_factor * EOTVOS) > 1e3
 
 
-SPINS = {"varies": "0.25,0.4@0.05@0.3", "reverses": "0,9@0.02", "backwards": "-0.25", "stands still": "0"}
+def swings(frequency: float, *parts: tuple[float, float, float]) -> Turning:
+    """A steady rate, Hz, and swings: amplitude, rad, frequency, Hz, phase."""
+    return Turning(frequency, Sinusoids(0.0, *np.transpose(parts)) if parts else None)
+
+
+SPINS = {
+    "varies": swings(0.25, (0.4, 0.05, 0.3)), "reverses": swings(0.0, (9.0, 0.02, 0.0)), "backwards": swings(-0.25),
+    "stands still": swings(0.0),
+}  # fmt: skip
 LIMIT = 0.1
 """Eo, nominal: what issues promise of a noise-free simulated instrument of the model's own order."""
 
@@ -100,7 +108,7 @@ def of_paper() -> Instrument:
 )
 def test_exact_model_of_full_kinematics_is_the_simulated_instrument(layout: str, spin: str) -> None:
     i = of_paper() if layout == "paper" else instrument(layout, sheets.EXACT)
-    flight, steady = fly(i, spin=[SPINS[spin]]), fly(i)
+    flight, steady = fly(i, spin={i.layout.discs[0].name: SPINS[spin]}), fly(i)
     assert "spin_angle" in flight.channels
     assert worst(i, flight) < LIMIT
     name = i.layout.output_names[0]
@@ -109,19 +117,19 @@ def test_exact_model_of_full_kinematics_is_the_simulated_instrument(layout: str,
 
 
 @pytest.mark.parametrize(("five", "spin"), [
-    (False, "0.25,0.4@0.05,0.1@0.21"), (True, "0.25,0.3@0.1"),
+    (False, swings(0.25, (0.4, 0.05, 0.0), (0.1, 0.21, 0.0))), (True, swings(0.25, (0.3, 0.1, 0.0))),
 ])  # fmt: skip
-def test_the_rate_of_a_clean_encoder_follows_a_fast_swing(five: bool, spin: str) -> None:
+def test_the_rate_of_a_clean_encoder_follows_a_fast_swing(five: bool, spin: Turning) -> None:
     """Of five accelerometers at unlike places the Euler force, R phi'', does not cancel: the ends of the record count as well."""
     places = zip((0.0, 70.0, 100.0, 200.0, 300.0), (1, 1, -1, 1, -1), strict=True)
     disc = sheets.disc("A", [sheets.accelerometer(f"A{k}", a, s) for k, (a, s) in enumerate(places)])
     i = parse_instrument(sheets.sheet([disc], 5, sheets.EXACT)) if five else of_paper()
-    assert worst(i, fly(i, spin=[spin]), slice(None)) < LIMIT
+    assert worst(i, fly(i, spin={i.layout.discs[0].name: spin}), slice(None)) < LIMIT
 
 
 def test_each_disc_turns_as_it_is_told() -> None:
     i = instrument("umbrella", sheets.EXACT)
-    flight = fly(i, spin=["A:0.2", "C:0,3@0.02"])
+    flight = fly(i, spin={"A": swings(0.2), "C": swings(0.0, (3.0, 0.02, 0.0))})
     assert {"spin_angle_A", "spin_angle_C"} == {n for n in flight.channels if n.startswith("spin_angle")}
     angle, t = np.unwrap(flight.channels["spin_angle_A"]), flight.time
     assert angle == pytest.approx(2 * np.pi * 0.2 * t, abs=1e-12)
@@ -131,7 +139,7 @@ def test_each_disc_turns_as_it_is_told() -> None:
 
 def test_the_encoder_of_a_record_is_flown(tmp_path: Path) -> None:
     i = instrument("complements", sheets.EXACT)
-    first = fly(i, spin=[SPINS["varies"]])
+    first = fly(i, spin={"A": SPINS["varies"]})
     write_flight(first, tmp_path / "first.csv")
     again = fly(i, motion=tmp_path / "first.csv")
     read = read_flight(tmp_path / "first.csv", i.g0, accelerometers=i.layout).channels["spin_angle"]
@@ -139,14 +147,6 @@ def test_the_encoder_of_a_record_is_flown(tmp_path: Path) -> None:
     gap = np.angle(np.exp(1j * (again.channels["spin_angle"] - read)))
     assert np.max(np.abs(gap)) < 1e-11
     assert worst(i, again) < LIMIT
-    stated = parse_turning(["0.3"], i.layout, first)["A"]
-    assert (stated.frequency, stated.swing) == (0.3, None)  # what is asked for goes before
-
-
-@pytest.mark.parametrize("text", ["", "a", "0.25,1", "0.25,1@-2", "nan", "0.25,1@2@3@4", "B:0.25"])
-def test_what_is_no_turning_is_said(text: str) -> None:
-    with pytest.raises(UserError, match="disc"):
-        parse_turning([text], instrument("complements").layout)
 
 
 def test_an_encoder_read_at_uneven_instants_turns_evenly() -> None:
