@@ -7,6 +7,7 @@ import contextlib
 import json
 import math
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
+from dataclasses import asdict
 from functools import partial
 from importlib import resources
 from pathlib import Path
@@ -104,7 +105,7 @@ def _make_plain(x: Any) -> Any:
 
 
 def _show_state(session: Session, request: Request) -> Any:
-    status, s = {"status": session.jobs.status.as_json()}, session.state
+    status, s = {"status": asdict(session.jobs.status)}, session.state
     # a state never changes: it is described once
     if session.overview is None or session.overview[0] is not s:
         session.overview = s, views.describe_state(s)
@@ -118,7 +119,7 @@ async def _send_events(session: Session, request: Request) -> Response:
             status = session.jobs.status
             if status.count != last:
                 last = status.count
-                yield f"data: {json.dumps(status.as_json())}\n\n"
+                yield f"data: {json.dumps(asdict(status))}\n\n"
             await asyncio.sleep(BEAT)
             waited += BEAT
             if waited > WATCH:
@@ -193,7 +194,7 @@ async def _do(session: Session, request: Request) -> Response:
     if action is None:
         raise UserError("there is no such action", found=request.path_params["what"][:40])
     await _act(action, session, body)
-    return JSONResponse({"status": session.jobs.status.as_json()}, 202)
+    return JSONResponse({"status": asdict(session.jobs.status)}, 202)
 
 
 async def _act(action: Callable[[Session, Body], Any], session: Session, body: Body) -> Any:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import threading
-import time
 import traceback
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
@@ -15,7 +14,6 @@ from ragg_runtime import api
 from ragg_runtime.api import Held, Loaded
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.progress import PASSES
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.model_toml import set_parameters
@@ -26,8 +24,7 @@ from ragg_runtime.studio.files import Places
 from ragg_runtime.studio.mapping import is_foreign
 
 T = TypeVar("T")
-# announces a part of some work: its name, and the samples that it goes through
-Part = Callable[[str, float], None]
+Say = Callable[[str], None]  # says what is being worked on
 
 NOTHING: Mapping[str, None] = MappingProxyType(dict.fromkeys(("compared", "diagnosed", "held", "previous")))
 """What is known of another model or other flights."""
@@ -83,10 +80,6 @@ class State:
             raise UserError("no flight is open", remedy="choose one first")
         return self.flights[: len(self.flights) - self.kept]
 
-    @property
-    def samples(self) -> float:
-        return float(sum(map(len, self.flights)))
-
     def result_for(self, flight: int) -> tuple[Comparison, int]:
         """The comparison with a flight, and its number there; flights kept for validation have that of the others' calibration."""
         first = len(self.flights) - self.kept
@@ -123,12 +116,12 @@ class Session:
     def open(self, model: Path | None, flights: Sequence[Path]) -> None:
         """Open a model directory and flights (``None``, none: those that are open stay), and look at them."""
 
-        def work(part: Part) -> None:
+        def work(say: Say) -> None:
             if model is not None:
                 self._forget(loaded=api.load(model))
             if flights:
                 self._forget(paths=tuple(flights), flights=(), read=(), cuts=(), kept=0)
-                part("reading and examining the flights", 1.0)
+                say("reading and examining the flights")
                 try:
                     records = tuple(api.read_flights(self.state.model, flights))
                 except UserError:
@@ -139,7 +132,7 @@ class Session:
                     x.path or flights[0] for x in records
                 )  # a file of several lines is as many flights
                 self._put(paths=places, flights=records, read=records, cuts=((),) * len(records))
-            self._look(part)
+            self._look(say)
 
         self.jobs.start("opening", work)
 
@@ -178,18 +171,18 @@ class Session:
         """Compare and diagnose what is open."""
         self.jobs.start("looking", self._look)
 
-    def _look(self, part: Part) -> None:
+    def _look(self, say: Say) -> None:
         s = self.state
         if s.loaded is None or not s.flights:
             return
         if s.compared is None:
-            part("calibrating and comparing", PASSES["compare"] * s.samples)
+            say("calibrating and comparing")
             self._put(compared=api.compare(s.loaded, s.fitted))
         compared = self.state.require("compared")
         if s.kept:
-            part("validating", PASSES["compare"] * s.samples)
+            say("validating")
             self._put(held=api.validate(s.loaded, compared, s.fitted, s.flights[-s.kept :]))
-        part("testing every effect", PASSES["diagnose"] * s.samples)
+        say("testing every effect")
         self._put(diagnosed=api.diagnose(s.loaded, s.fitted, compared=compared))
 
     def reread(self) -> None:
@@ -211,17 +204,17 @@ class Session:
             raise UserError("no effect is chosen", remedy="tick one or several")
         m = self.state.model
 
-        def work(part: Part) -> None:
+        def work(say: Say) -> None:
             # the page keeps the old state until all is done, and sees the error fall
             s, extended = self.state, m
             flights = s.fitted if s.flights else ()
             for e in effects:
-                part(f"deriving {e} and calibrating", PASSES["add"] * s.samples)
+                say(f"deriving {e} and calibrating")
                 extended = api.add(extended, e, flights).loaded
-            part("calibrating and comparing", PASSES["compare"] * s.samples)
+            say("calibrating and comparing")
             compared = api.compare(extended, flights) if flights else None
             self._forget(previous=s.compared, compared=compared, loaded=extended)
-            self._look(part)
+            self._look(say)
 
         self.jobs.start(f"deriving {effects[0]} into {m.name}", work)
 
@@ -307,17 +300,12 @@ class Busy(Exception):
 
 @dataclass(frozen=True)
 class Status:
-    """What the page shows: ``revision`` grows with the state alone, ``share`` is done (0 ... 1), ``error`` the last failure."""
+    """What the page shows: ``revision`` grows with the state alone, ``job`` is worked on, ``error`` the last failure."""
 
     count: int = 0
     revision: int = 0
     job: str = ""
-    share: float = 0.0
-    began: float = 0.0
     error: dict[str, str | None] | None = None
-
-    def as_json(self) -> dict[str, object]:
-        return asdict(self) | {"spent_s": time.monotonic() - self.began if self.job else 0.0}
 
 
 def describe_failure(error: Exception) -> dict[str, str | None]:
@@ -343,13 +331,13 @@ class Jobs:
         self._cancel = threading.Event()
         self._thread: threading.Thread | None = None
 
-    def start(self, name: str, work: Callable[[Part], None]) -> None:
-        """Begin ``work``, which is given a function to announce its parts. Raises Busy."""
+    def start(self, name: str, work: Callable[[Say], None]) -> None:
+        """Begin ``work``, which is given a function to say what it does. Raises Busy."""
         with self._lock:
             if self._thread is not None and self._thread.is_alive() and self.status.job:
                 raise Busy
             self._cancel.clear()
-            self._tell(job=name, share=0.0, began=time.monotonic(), error=None)
+            self._tell(job=name, error=None)
             self._thread = threading.Thread(target=self._run, args=(work,), name="work", daemon=True)
             self._thread.start()
 
@@ -369,32 +357,22 @@ class Jobs:
     def _tell(self, **changes: object) -> None:
         self.status = replace(self.status, count=self.status.count + 1, **changes)  # type: ignore[arg-type]
 
-    def _run(self, work: Callable[[Part], None]) -> None:
-        total, done = 1.0, 0.0
-
-        def step(amount: float) -> None:
-            nonlocal done
+    def _run(self, work: Callable[[Say], None]) -> None:
+        def go_on() -> None:
             if self._cancel.is_set():
                 raise Cancelled
-            done += amount
-            share = min(done / total, 0.99)
-            if share - self.status.share > 0.01:
-                self._tell(share=share)
 
-        def part(name: str, amount: float) -> None:
-            nonlocal total, done
-            if self._cancel.is_set():
-                raise Cancelled
-            total, done = max(amount, 1.0), 0.0
-            self._tell(job=name, share=0.0, began=time.monotonic())
+        def say(name: str) -> None:
+            go_on()
+            self._tell(job=name)
 
         error: dict[str, str | None] | None = None
         try:
-            with progress.listening(step):
-                work(part)
+            with progress.listening(lambda amount: go_on()):
+                work(say)
         except Cancelled:
             error = {"what": "cancelled; nothing was changed"}
         except Exception as e:
             error = describe_failure(e)
         finally:
-            self._tell(job="", share=0.0, error=error)
+            self._tell(job="", error=error)

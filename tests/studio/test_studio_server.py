@@ -185,7 +185,7 @@ def test_a_name_that_is_made_to_point_here_is_refused(server, client) -> None:
 def test_a_post_from_another_site_changes_nothing(client, folder) -> None:
     before = load_model_dir(folder / "model").digest
     origins = [{"origin": x} for x in ("http://evil.example", "null", "", "http://127.0.0.1:1")]
-    for headers in (*origins, {"sec-fetch-site": "cross-site"}, {"sec-fetch-site": "same-site"}):
+    for headers in origins:
         answer = client.post("/api/do/remove", json={"effect": "lag"}, headers=headers)
         assert answer.status_code == 403, headers
     assert load_model_dir(folder / "model").digest == before

@@ -58,13 +58,8 @@ function job(status) {
   if (!busy) return;
   if (box.dataset.job !== status.job) {
     box.dataset.job = status.job;
-    fill(box, h("span.name", {}, status.job), h("progress", { max: 1, "aria-label": status.job }), h("span.left"), h("button.quiet", { type: "button", onclick: () => doing("cancel") }, "Cancel"));
+    fill(box, h("span.name", {}, status.job), h("progress", { "aria-label": status.job }), h("button.quiet", { type: "button", onclick: () => doing("cancel") }, "Cancel"));
   }
-  const bar = box.querySelector("progress");
-  if (status.share > 0.02) bar.value = status.share;
-  const beyond = status.share > 0.985; // beyond the estimate nothing is known
-  const left = status.share > 0.05 && !beyond ? (status.spent_s * (1 - status.share)) / status.share : null;
-  box.querySelector(".left").textContent = beyond ? "longer than estimated" : left !== null && left > 3 ? `about ${left < 100 ? `${Math.round(left)} s` : `${Math.round(left / 60)} min`} left` : "";
 }
 
 function darker() {
