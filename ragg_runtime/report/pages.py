@@ -33,16 +33,15 @@ from ragg_runtime.wording.sections import (
 from ragg_runtime.workspace import Source
 
 
-def render_page(kind: str, sections: Sequence[Section], source: Source, f: Fitted | None = None) -> str:
+def render_page(kind: str, sections: Sequence[Section], source: Source) -> str:
     """A whole HTML document of sections, the first of which is the verdict.
 
-    ``kind``: what the report is about, in two or three words; ``f``: a fit, whose facts are at the foot of the page.
+    ``kind``: what the report is about, in two or three words.
     """
     if notes := tuple(source.notes):
         sections = [*sections, Section("What was done to the record", notes, detail=len(notes) > 3)]
     first, *further = sections
     libraries = ", ".join(f"{n} {v}" for n, v in list_versions().items() if v != MISSING)
-    model = f.model if f is not None else source.m and source.m.model
     page = make_environment("ragg_runtime.report", html=True).get_template("page.html.j2")
     return numbers.clean(
         page.render(
@@ -51,8 +50,7 @@ def render_page(kind: str, sections: Sequence[Section], source: Source, f: Fitte
             first=render_html([first], draw_plot),
             others=render_html(further, draw_plot),
             facts=[
-                *(panels.describe_record(f) if f is not None else ()),
-                ("derived model", model and model.digest),
+                ("derived model", source.m and source.m.model.digest),
                 ("versions", libraries),
             ],
         )
@@ -83,26 +81,25 @@ def write_comparison(c: Comparison, source: Source, frozen: Held | None = None) 
         summary = describe.describe_comparison(c.as_json(), names)
     else:
         summary = describe.describe_held(frozen.as_json(), names)
-    lines = panels.pair_lines(c.residual, None)
+    lines, (n,) = panels.pair_lines(c.residual, None), panels.find_worst(f, c.residual, 1)
     sections = [
-        _add_plots(summary[0], panels.plot_blocks(f, lines, envelope=True)),
+        _add_plots(summary[0], panels.plot_window(f, n, c.residual[n]), panels.plot_blocks(f, lines)),
         *_add_failures(summary[1:], c),
         *_draw("Spectrum", panels.plot_spectrum(f, lines), detail=True),
         *_draw("Demodulated channels", panels.plot_channels(f, lines), detail=True),
-        *_ask_whiteness(f, c.residual),
+        *_ask_whiteness(f, n, c.residual[n]),
         *describe_parameters(f),
     ]
-    return render_page("Model against flight", sections, source, f)
+    return render_page("Model against flight", sections, source)
 
 
-def _ask_whiteness(f: Fitted, residual: Sequence[Array]) -> list[Section]:
-    """Whether the residual of the worst flight is noise, folded; nothing where only the channels were recorded."""
-    (n,) = panels.find_worst(f, residual, 1)
+def _ask_whiteness(f: Fitted, n: int, residual: Array) -> list[Section]:
+    """Whether the residual (N,), V, of flight n is noise, folded; nothing where only the channels were recorded."""
     if f.observations[n].recorded.demodulated:
         return []
-    channel = panels.find_worst_channel(f, n, residual[n])
-    white = panels.plot_whiteness(f, n, residual[n])
-    against = panels.plot_against(f, n, residual[n], channel)
+    channel = panels.find_worst_channel(f, n, residual)
+    white = panels.plot_whiteness(f, n, residual)
+    against = panels.plot_against(f, n, residual, channel)
     return [
         *_draw("Whiteness of the residual", white, detail=True),
         *_draw(f"Residual against {numbers.product(channel)}", against, detail=True),
@@ -141,7 +138,7 @@ def write_diagnosis(d: Diagnosis, source: Source) -> str:
         *_draw("Demodulated channels", panels.plot_channels(f, lines), detail=True),
         *(describe_parameters(f) if d.found else ()),
     ]
-    return render_page("What is missing", sections, source, d.fitted)
+    return render_page("What is missing", sections, source)
 
 
 def write_addition(history: Sequence[Json], before: Comparison, after: Comparison, source: Source) -> str:
@@ -166,7 +163,7 @@ def write_addition(history: Sequence[Json], before: Comparison, after: Compariso
         *_draw("Demodulated channels", panels.plot_channels(f, lines), detail=True),
         *(replace(s, detail=True) for s in _add_failures([], after)),
     ]
-    return render_page("A step of the model", sections, source, f)
+    return render_page("A step of the model", sections, source)
 
 
 def write_history(steps: Sequence[Json], source: Source) -> str:
@@ -183,9 +180,9 @@ def write_history(steps: Sequence[Json], source: Source) -> str:
 def write_calibration(summary: Sequence[Section], f: Fitted, source: Source) -> str:
     """The report of ``calibrate``: ``summary`` and the parameters of the fit ``f``."""
     lines = panels.pair_lines(f.residuals(), None)
-    drawn = panels.plot_blocks(f, lines, envelope=True), panels.plot_spectrum(f, lines)
+    drawn = panels.plot_blocks(f, lines), panels.plot_spectrum(f, lines)
     sections = [*summary, *_draw("The residual", *drawn), *describe_parameters(f, values=False)]
-    return render_page("Calibration", sections, source, f)
+    return render_page("Calibration", sections, source)
 
 
 def write_compensation(summary: Sequence[Section], x: Sequence[Mapping[str, Array]], source: Source) -> str:

@@ -48,26 +48,22 @@ STEPS = 14  # latest steps of a history that are drawn
 SECONDS = "time since the first sample, s"
 
 
-POINTS = 600  # columns of a drawn time series: about one for every second pixel of a laptop's screen
-LEAST = 8  # samples of which an rms is drawn
+COLUMNS = 600  # segments of an envelope: about one for every second pixel
+LEAST = 16  # samples that are drawn
 SEGMENT = 128.0  # length of the segments of a drawn spectrum, s: a resolution of a fraction of the spin rate
 BAND = CUTOFF  # Hz up to which the demodulated channels hold the gradient
 DRAWN = CUTOFF + WIDTH / 2  # Hz up to which they are drawn: beyond it the low-pass leaves nothing
 
 
-def find_envelope(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POINTS) -> tuple[Array, ...]:
-    """A series (N,) in at most ``points`` segments of ``LEAST`` samples or more: middle (s), minimum, maximum and rms of the valid
-    samples (NaN: none).
-    """
-    edges = np.unique(np.linspace(0, len(x), min(points, max(1, len(x) // LEAST)) + 1).astype(np.intp))
+def find_envelope(time: Array, x: Array) -> tuple[Array, ...]:
+    """A series (N,) in as many segments as can be drawn: middle (s), minimum and maximum (NaN: no sample)."""
+    edges = np.unique(np.linspace(0, len(x), COLUMNS + 1).astype(np.intp))
     starts = edges[:-1]
-    count = np.add.reduceat(valid.astype(float), starts)
-    empty = count == 0.0
-    low = np.minimum.reduceat(np.where(valid, x, np.inf), starts)
-    high = np.maximum.reduceat(np.where(valid, x, -np.inf), starts)
-    rms = np.sqrt(np.add.reduceat(np.where(valid, x, 0.0) ** 2, starts) / np.maximum(count, 1.0))
-    middle = 0.5 * (time[starts] + time[edges[1:] - 1])
-    return middle, *(np.where(empty, np.nan, v) for v in (low, high, rms))
+    return (
+        0.5 * (time[starts] + time[edges[1:] - 1]),
+        np.fmin.reduceat(x, starts),
+        np.fmax.reduceat(x, starts),
+    )
 
 
 def compute_measured(w: PreparedFlight) -> Array:
@@ -148,25 +144,14 @@ def _list_worst(f: Fitted, residuals: Residuals) -> Iterator[tuple[int, Prepared
         yield n, w, f.scales[n], w.observation.name if len(f.prepared) > 1 else ""
 
 
-def plot_blocks(f: Fitted, lines: Lines, *, envelope: bool = False) -> Curves:
-    """The error in blocks of time of every line; with ``envelope`` also the last residual itself, above it."""
+def plot_blocks(f: Fitted, lines: Lines) -> Curves:
+    """The error in blocks of time of every line."""
     axes = []
     for n, w, k, name in _list_worst(f, lines[0][1]):
-        r = w.observation.record
-        edges, level = r.time, compute_noise_rms(w, k)
-        steps = []
-        for label, residuals in lines:
-            edges, rms = measure_blocks(w, residuals[n], k)
-            steps.append(Curve(label, edges, rms, _role(label), "steps"))
-        ends = (float(edges[0]), float(edges[-1]))
-        if envelope:
-            time, low, high, rms = find_envelope(r.time, lines[-1][1][n] / k, r.valid)
-            band = Curve("min-max", time, low, "envelope", "band", high)
-            around = Curve("± rms", time, rms, width=0.9), Curve("_", time, -rms, width=0.9)
-            axes.append(Axes((band, *around), "residual, Eo", name, ends, level, share=1.3))
-        axes.append(
-            Axes(tuple(steps), "rms, Eo", "" if envelope else name, ends, level, signed=False, share=0.85)
-        )
+        blocks = [(label, *measure_blocks(w, residuals[n], k)) for label, residuals in lines]
+        steps = tuple(Curve(label, edges, rms, _role(label), "steps") for label, edges, rms in blocks)
+        ends = (float(blocks[0][1][0]), float(blocks[0][1][-1]))
+        axes.append(Axes(steps, "rms, Eo", name, ends, compute_noise_rms(w, k), signed=False, share=0.85))
     caption = "Error before demodulation in 24 blocks of time."
     if len(f.prepared) > FLIGHTS:
         caption += f" The {FLIGHTS} worst of {len(f.prepared)} flights."
@@ -174,7 +159,11 @@ def plot_blocks(f: Fitted, lines: Lines, *, envelope: bool = False) -> Curves:
 
 
 def plot_window(
-    f: Fitted, n: int, residual: Array, window: tuple[float, float], spread: Array | None = None
+    f: Fitted,
+    n: int,
+    residual: Array,
+    window: tuple[float, float] = (-np.inf, np.inf),
+    spread: Array | None = None,
 ) -> Curves:
     """What was measured over the model, and the residual (N,), V, of flight n between two instants, s.
 
@@ -183,7 +172,7 @@ def plot_window(
     w, k = f.prepared[n], f.scales[n]
     r, measured = w.observation.record, compute_measured(w)
     rows = slice(*np.searchsorted(r.time, window))
-    if len(r.time[rows]) < 2 * LEAST:
+    if len(r.time[rows]) < LEAST:
         raise UserError("the segment is too short to be drawn", found=f"{len(r.time[rows])} samples")
 
     def draw(label: str, x: Array, role: Role) -> Curve:
@@ -195,7 +184,11 @@ def plot_window(
         low, high = np.where(r.valid, spread / k, np.nan)[:, rows]
         curves.insert(0, Curve("models within the uncertainty", r.time[rows], low, "envelope", "band", high))
     axes = (
-        Axes(output, f"{f.observations[n].recorded.words}, V"),
+        Axes(
+            output,
+            f"{f.observations[n].recorded.words}, V",
+            w.observation.name if len(f.prepared) > 1 else "",
+        ),
         Axes(tuple(curves), "residual, Eo", level=compute_noise_rms(w, k)),
     )
     return Curves(f"window{n}", "Measured over model, and the residual.", axes, SECONDS, height=1.6)
@@ -267,7 +260,7 @@ def _draw_channel(label: str, time: Array, x: Array, role: Role) -> Curve:
     """A line; its envelope where it has more points than can be drawn."""
     if len(x) <= MOST_POINTS:
         return Curve(label, time, x, role, width=0.8)
-    middle, low, high, _ = find_envelope(time, x, np.isfinite(x), MOST_POINTS // 2)
+    middle, low, high = find_envelope(time, x)
     return Curve(label, middle, low, role, "band", high)
 
 
@@ -345,27 +338,6 @@ def plot_compensated(series: Sequence[Mapping[str, Array]]) -> Curves | None:
             axes.append(Axes((band, Curve(name, time[::step], x, width=0.8)), f"{name}, Eo"))
     caption = "Compensated channels with their uncertainty."
     return Curves("compensated", caption, tuple(axes), "time, s") if axes else None
-
-
-def describe_record(f: Fitted) -> list[tuple[str, str]]:
-    """(name, value) of what was recorded and what was fitted."""
-    records = [(o if o.thin is None else o.thin.whole).record for o in f.observations]
-    samples, valid = (sum(len(r.time) for r in records), sum(int(np.sum(r.valid)) for r in records))
-    text = f"{numbers.fixed(samples, 0)} at {numbers.hertz(records[0].rate)}"
-    if valid < samples:
-        text += f", {numbers.fixed(samples - valid, 0)} of them not usable"
-    thin = {o.record.rate for o in f.observations if o.thin is not None}
-    if thin:
-        text += f"; thinned to {numbers.hertz(min(thin))} without loss of information"
-    return [
-        ("flights", numbers.join_names([numbers.clean(o.name) for o in f.observations])),
-        ("duration", numbers.seconds(sum(float(r.time[-1]) + 1.0 / r.rate for r in records))),
-        ("samples", text),
-        ("output", f.observations[0].recorded.words),
-        ("effects in the model", numbers.join_names([e.id for e in f.model.effects]) or "none"),
-        ("k_ggi", f"{numbers.number(f.k_ggi, 4)} V/Eo"),
-        ("spin", numbers.hertz(f.instrument.spin_frequency)),
-    ]
 
 
 NORMAL_99 = 2.5758  # half width of the interval that holds 99 % of a normal distribution, standard deviations

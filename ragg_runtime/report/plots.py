@@ -15,11 +15,12 @@ from typing import Any
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes as Drawn
+from matplotlib.axis import Axis
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from matplotlib.transforms import blended_transform_factory
 from numpy.typing import NDArray
 
@@ -152,8 +153,8 @@ def _set_limits(ax: Drawn, axes: Axes) -> None:
     if axes.ends is not None:
         ax.set_xlim(*axes.ends)
     if axes.log:
-        _set_log_ticks(ax, "x")
-        _set_log_ticks(ax, "y")
+        _set_log_ticks(ax.xaxis, ax.get_xlim())
+        _set_log_ticks(ax.yaxis, ax.get_ylim())
 
 
 def _find_log_limits(axes: Axes, values: Array) -> tuple[float, float]:
@@ -166,14 +167,12 @@ def _find_log_limits(axes: Axes, values: Array) -> tuple[float, float]:
     return low / spread, high * spread
 
 
-def _set_log_ticks(ax: Drawn, which: str) -> None:
+def _set_log_ticks(axis: Axis, ends: tuple[float, float]) -> None:
     """Plain numbers on a logarithmic axis; 2 and 5 labelled as well where it spans little."""
-    axis, (low, high) = (ax.xaxis, ax.get_xlim()) if which == "x" else (ax.yaxis, ax.get_ylim())
-    narrow = high / low < (3000.0 if which == "x" else 300.0)
-    axis.set_major_locator(LogLocator(10.0, (1.0, 2.0, 5.0) if narrow else (1.0,), numticks=12))
-    between = LogLocator(10.0, tuple(range(2, 10)), numticks=40) if high / low < 1e6 else FixedLocator([])
-    axis.set_minor_locator(between)
-    axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}" if 1e-4 < v < 1e5 else numbers.number(v, 1)))
+    axis.set_major_locator(
+        LogLocator(10.0, (1.0, 2.0, 5.0) if ends[1] / ends[0] < 1e3 else (1.0,), numticks=12)
+    )
+    axis.set_major_formatter(FuncFormatter(lambda v, _: numbers.plain(v)))
     axis.set_minor_formatter(NullFormatter())
 
 
@@ -217,7 +216,7 @@ def _label_bars(ax: Drawn, plot: Bars, low: float, top: float) -> None:
     if plot.log:
         ax.set_xscale("log")
         ax.set_xlim(low, top * (top / low) ** 0.14)
-        _set_log_ticks(ax, "x")
+        _set_log_ticks(ax.xaxis, ax.get_xlim())
     else:
         ax.set_xlim(0.0, 1.18 * top)
     ax.set_yticks(range(count), [numbers.short(b.label, 28) for b in plot.bars])

@@ -12,7 +12,7 @@ from ragg_runtime.compensation.calibrate import information, invert_root
 from ragg_runtime.estimation.fitted import Fitted
 from ragg_runtime.report import panels
 from ragg_runtime.report.plots import draw_file
-from ragg_runtime.studio.session import Branches, State
+from ragg_runtime.studio.session import State, list_present
 from ragg_runtime.wording.sections import Plot
 
 MODELS = 12  # models that are drawn from the posterior
@@ -40,7 +40,7 @@ def draw(s: State, a: Asked) -> bytes:
             plot = panels.plot_columns(s.flights[a.flight])
         case "steps":
             history = s.model.directory.history
-            steps = [history[n].as_json() for n in Branches(history).path]
+            steps = [history[n].as_json() for n in list_present(history)]
             plot = panels.plot_history(steps, s.require("compared").noise_floor)
         case _:
             plot = _draw_result(s, a, kind, channel)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import shutil
 import subprocess
 import sys
 import unicodedata
@@ -18,9 +17,6 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.io.files import ENDINGS, find_ending
 from ragg_runtime.workspace import Loaded
 
-LISTED = 500  # most entries of a folder that are shown
-LONGEST_NAME = 120  # longest name of an uploaded file, characters
-MOST = 4 << 30  # largest file that is taken, bytes: a day at 100 Hz with all channels is 2 GB
 FOLDER = "flights"  # where uploaded flights are kept, in the model directory
 
 
@@ -58,14 +54,11 @@ class Places:
             raise UserError("there is no such folder", where=folder)
         with os.scandir(folder) as entries:
             kinds = [(e, _find_kind(e)) for e in sorted(entries, key=lambda e: e.name)]
-        openable = [(e, kind) for e, kind in kinds if kind is not None][:LISTED]
         return {
             "folder": str(folder),
             "above": str(folder.parent) if any(r in folder.parents for r in self.roots) else None,
             "roots": list(map(str, self.roots)),
-            "entries": [
-                {"name": e.name, "path": e.path, "kind": kind, "bytes": _find_size(e)} for e, kind in openable
-            ],
+            "entries": [{"name": e.name, "path": e.path, "kind": kind} for e, kind in kinds if kind],
         }
 
 
@@ -79,31 +72,13 @@ def _find_kind(e: os.DirEntry[str]) -> str | None:
     return "flight" if find_ending(e.name) else None
 
 
-def _find_size(e: os.DirEntry[str]) -> int:
-    try:
-        return e.stat().st_size if e.is_file() else 0
-    except OSError:
-        return 0
-
-
 # --- flights that the page sends -----------------------------------------------------------------------
 
 
 async def receive_flight(m: Loaded, name: str, request: Request) -> Path:
-    """The body of a request as a file; nothing is overwritten. UserError if it is too long or does not fit."""
+    """The body of a request as a file; nothing is overwritten. UserError if it does not arrive whole."""
     folder, safe_name = m.directory.path.resolve() / FOLDER, make_safe(name)
-    announced = int(request.headers.get("content-length", "0") or 0)
     folder.mkdir(exist_ok=True)
-    if folder.is_symlink():
-        raise UserError("the folder for flights is a link", where=folder, remedy="make it a folder")
-    room = min(MOST, shutil.disk_usage(folder).free // 2)
-    if announced > room:
-        raise UserError(
-            "the file is too large",
-            found=f"{announced / 1e6:.0f} MB",
-            expected=f"at most {room / 1e6:.0f} MB",
-            remedy="put it beside the model and choose it there",
-        )
     path = _claim(folder, safe_name)
     try:
         with path.open("wb") as target:
@@ -127,8 +102,6 @@ def make_safe(name: str) -> str:
     if ending is None or len(plain) == len(ending):
         expected = "a name that ends in " + ", ".join(ENDINGS)
         raise UserError("this is not a flight file", where=name[:200], expected=expected)
-    if len(plain) > LONGEST_NAME:
-        raise UserError("the name is too long", where=plain[:60] + "…", expected=f"{LONGEST_NAME} characters")
     return plain
 
 

@@ -105,11 +105,7 @@ def _make_plain(x: Any) -> Any:
 
 
 def _show_state(session: Session, request: Request) -> Any:
-    status, s = {"status": asdict(session.jobs.status)}, session.state
-    # a state never changes: it is described once
-    if session.overview is None or session.overview[0] is not s:
-        session.overview = s, views.describe_state(s)
-    return status | session.overview[1]
+    return {"status": asdict(session.jobs.status)} | views.describe_state(session.state)
 
 
 async def _send_events(session: Session, request: Request) -> Response:
@@ -267,9 +263,7 @@ ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {
     "edit": _edit,
     "leave": _leave,
     "validate": lambda session, body: session.keep_for_validation(body["flight"]),
-    "undo": lambda session, body: session.go("undo"),
-    "redo": lambda session, body: session.go("redo"),
-    "restore": lambda session, body: session.go("restore", body["step"]),
+    "undo": lambda session, body: session.undo(),
     "cancel": lambda session, body: session.jobs.cancel(),
 }
 """What the page can do, by the last part of the address."""

@@ -6,7 +6,6 @@ import asyncio
 import contextlib
 import secrets
 import socket
-import sys
 import webbrowser
 from collections.abc import Callable, Sequence
 from http.cookies import CookieError, SimpleCookie
@@ -27,7 +26,6 @@ from ragg_runtime.studio.session import Session
 
 LOOPBACK = "127.0.0.1"
 
-SWITCH = 0.0005  # how long a thread that computes may keep one waiting that answers the page, s
 CLOSING = 1  # longest wait for open pages once it is interrupted, s
 WHOLE = 10.0  # how long a request may take to arrive, s; of a file, how long nothing may arrive
 BODY = 1 << 20  # longest body of a request, bytes; files have a limit of their own
@@ -56,7 +54,6 @@ def serve(
     for path in (*([model] if model else []), *flights):
         if not path.exists():
             raise UserError("there is no such file or folder", where=path)
-    sys.setswitchinterval(SWITCH)
     session = Session(Places.of(model, flights))
     with _listen(port) as listening:
         bound_port = int(listening.getsockname()[1])

@@ -42,8 +42,8 @@ class SheetEdit(NamedTuple):
 class State:
     """What is open, and its results; ``None`` or empty where there is none yet.
 
-    ``read``: the flights as they were read; ``cuts``: the segments (from, to, s) of each that are left out; ``kept``: how many at
-    the end are kept for validation. ``compared``, ``diagnosed``: results for the other flights; ``held``: how their calibration
+    ``read``: the flights as they were read; ``cuts``: the segments (from, to, s) of each that are left out; ``kept``: those
+    that are kept for validation. ``compared``, ``diagnosed``: results for the other flights; ``held``: how their calibration
     holds on those kept. ``previous``: the comparison before the last step.
     """
 
@@ -52,7 +52,7 @@ class State:
     flights: tuple[Flight, ...] = ()
     read: tuple[Flight, ...] = ()
     cuts: tuple[tuple[tuple[float, float], ...], ...] = ()
-    kept: int = 0
+    kept: frozenset[int] = frozenset()
     compared: Comparison | None = None
     diagnosed: Diagnosis | None = None
     held: Held | None = None
@@ -78,14 +78,13 @@ class State:
         """The flights that are not kept for validation; UserError if no flight is open."""
         if not self.flights:
             raise UserError("no flight is open", remedy="choose one first")
-        return self.flights[: len(self.flights) - self.kept]
+        return tuple(x for n, x in enumerate(self.flights) if n not in self.kept)
 
     def result_for(self, flight: int) -> tuple[Comparison, int]:
         """The comparison with a flight, and its number there; flights kept for validation have that of the others' calibration."""
-        first = len(self.flights) - self.kept
-        if flight < first or self.held is None:
-            return self.require("compared"), flight
-        return self.held.comparison, flight - first
+        if self.held is None or flight not in self.kept:
+            return self.require("compared"), flight - sum(n < flight for n in self.kept)
+        return self.held.comparison, sorted(self.kept).index(flight)
 
 
 REMEDIES = {
@@ -102,7 +101,6 @@ class Session:
         self.places = places
         self.jobs = Jobs()
         self.state = State()
-        self.overview: tuple[State, dict[str, Any]] | None = None
         self._lock = threading.Lock()
 
     def _put(self, **changes: object) -> None:
@@ -120,7 +118,7 @@ class Session:
             if model is not None:
                 self._forget(loaded=api.load(model))
             if flights:
-                self._forget(paths=tuple(flights), flights=(), read=(), cuts=(), kept=0)
+                self._forget(paths=tuple(flights), flights=(), read=(), cuts=(), kept=frozenset())
                 say("reading and examining the flights")
                 try:
                     records = tuple(api.read_flights(self.state.model, flights))
@@ -153,18 +151,12 @@ class Session:
         self.look()
 
     def keep_for_validation(self, flight: int) -> None:
-        """Keep a flight out of the calibration, at the end of the list; one that is kept already is fitted again."""
+        """Keep a flight out of the calibration; one that is kept already is fitted again."""
         s = self._idle(flight)
-        first = len(s.flights) - s.kept
-        count = s.kept + (1 if flight < first else -1)
-        if count == len(s.flights):
+        kept = s.kept ^ {flight}
+        if len(kept) == len(s.flights):
             raise UserError("one flight at least is needed to calibrate", remedy="open another flight")
-        order = [n for n in range(len(s.flights)) if n != flight]
-        order.insert(len(s.flights) - 1 if flight < first else first, flight)
-        moved = {
-            name: tuple(getattr(s, name)[n] for n in order) for name in ("paths", "flights", "read", "cuts")
-        }
-        self._forget(**moved, kept=count)
+        self._forget(kept=kept)
         self.look()
 
     def look(self) -> None:
@@ -181,7 +173,8 @@ class Session:
         compared = self.state.require("compared")
         if s.kept:
             say("validating")
-            self._put(held=api.validate(s.loaded, compared, s.fitted, s.flights[-s.kept :]))
+            others = [s.flights[n] for n in sorted(s.kept)]
+            self._put(held=api.validate(s.loaded, compared, s.fitted, others))
         say("testing every effect")
         self._put(diagnosed=api.diagnose(s.loaded, s.fitted, compared=compared))
 
@@ -231,15 +224,14 @@ class Session:
         text = set_parameters(m.directory.text, value, sigma, fixed)  # type: ignore[arg-type]
         self._change(api.change(m, text, "edit", ", ".join(values)))
 
-    def go(self, action: str, step: int | None = None) -> None:
-        """Undo, redo, or go back to the state after a step of the history."""
+    def undo(self) -> None:
+        """Go back to the state before the present one."""
         self._idle()
-        m = self.state.model
-        history, branches = m.directory.history, Branches(m.directory.history)
-        to = {"undo": branches.undo, "redo": branches.redo}.get(action, step)
-        if to is None or not 0 <= to < len(history) or not history[to].text:
-            raise UserError(f"there is nothing to {action}")
-        self._change(api.change(m, history[to].text, action, str(to)))
+        m, history = self.state.model, self.state.model.directory.history
+        path = list_present(history)
+        if len(path) < 2 or not history[path[-2]].text:
+            raise UserError("there is nothing to undo")
+        self._change(api.change(m, history[path[-2]].text, "undo", str(path[-2])))
 
     def _idle(self, flight: int | None = None) -> State:
         """The state, if nothing is being worked on (else Busy) and there is such a flight (else UserError)."""
@@ -250,41 +242,15 @@ class Session:
         return self.state
 
 
-# --- the history as branches ---------------------------------------------------------------------------
-
-
-class Branches:
-    """The history as a tree of states, each numbered as the step that made it; undo, redo and restore move in it."""
-
-    def __init__(self, history: Sequence[HistoryStep]) -> None:
-        self.parents: dict[int, int | None] = {}
-        self.current: int | None = None
-        after: list[int | None] = []
-        for n, s in enumerate(history):
-            if s.action in ("undo", "redo", "restore"):
-                self.current = after[int(s.effect)]
-            elif s.action != "calibrate":  # which leaves the model as it is
-                self.parents[n], self.current = self.current, n
-            after.append(self.current)
-
-    @property
-    def path(self) -> list[int]:
-        """The steps that lead to the present state."""
-        steps, n = [], self.current
-        while n is not None:
-            steps.append(n)
-            n = self.parents[n]
-        return steps[::-1]
-
-    @property
-    def undo(self) -> int | None:
-        """The state before the present one."""
-        return None if self.current is None else self.parents[self.current]
-
-    @property
-    def redo(self) -> int | None:
-        """The state that was made of the present one last."""
-        return max((n for n, parent in self.parents.items() if parent == self.current), default=None)
+def list_present(history: Sequence[HistoryStep]) -> list[int]:
+    """The steps that lead to the present state, by their numbers: an undo takes the last of them back."""
+    path: list[int] = []
+    for n, s in enumerate(history):
+        if s.action == "undo":
+            path = path[:-1]
+        elif s.action != "calibrate":  # which leaves the model as it is
+            path.append(n)
+    return path
 
 
 # --- jobs ----------------------------------------------------------------------------------------------

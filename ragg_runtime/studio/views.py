@@ -7,8 +7,9 @@ import json
 import math
 import re
 import shlex
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,7 @@ from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
 from ragg_runtime.io.record import LEFT_OUT
 from ragg_runtime.report import pages, panels
-from ragg_runtime.studio.session import Branches, State
+from ragg_runtime.studio.session import State, list_present
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import Section, Table, render_html
 
@@ -114,27 +115,10 @@ def _tabulate_discs(i: Instrument) -> Table:
 
 def _show_history(m: Loaded) -> Json:
     history = m.directory.history
-    branches = Branches(history)
-    present = branches.path
+    table = describe.tabulate_history([s.as_json() for s in history])
     return {
-        "now": branches.current,
-        "steps": [
-            {
-                "n": n,
-                "action": s.action,
-                "effect": s.effect,
-                "time": s.time,
-                "before": numbers.number(describe.find_rms(s.before)),
-                "after": numbers.number(describe.find_rms(s.after)),
-                "holdout": numbers.number(describe.find_rms(s.after, "holdout")),
-                "flights": sorted(s.flights),
-                "present": n in present,
-                "kept": bool(s.text),
-            }
-            for n, s in enumerate(history)
-        ],
-        "can_undo": branches.undo is not None,
-        "can_redo": branches.redo is not None,
+        "steps": render_html([Section("History", table=table)]),
+        "can_undo": len(list_present(history)) > 1,
     }
 
 
@@ -155,7 +139,7 @@ def show_flights(s: State) -> list[Json]:
             "channels": list(x.channels),
             "outputs": list(x.outputs),
             "cuts": [list(c) for c in cuts],
-            "kept": n >= len(s.flights) - s.kept,
+            "kept": n in s.kept,
             "parts": _list_outputs(s, n),
         }
         for n, (x, p, cuts) in enumerate(zip(s.flights, s.paths, s.cuts, strict=False))
@@ -208,7 +192,7 @@ def show_effects(d: Diagnosis) -> list[Json]:
 def _show_validation(s: State) -> str:
     """The test of the calibration on the flights kept for validation."""
     result: Any = s.held
-    names = [x.name for x in s.flights[len(s.flights) - s.kept :]]
+    names = [s.flights[n].name for n in sorted(s.kept)]
     return render_html(describe.describe_held(result.as_json(), names))
 
 
@@ -237,10 +221,9 @@ def list_commands(s: State) -> list[str]:
     """The same commands for a shell; first, as comments, the steps that are in the model already."""
     if s.loaded is None:
         return []
-    model, first = shlex.quote(str(s.loaded.directory.path)), len(s.paths) - s.kept
-    files, fitted, validation = (
-        shlex.join(dict.fromkeys(map(str, paths))) for paths in (s.paths, s.paths[:first], s.paths[first:])
-    )
+    model, files = shlex.quote(str(s.loaded.directory.path)), _join(s.paths)
+    fitted = _join([p for n, p in enumerate(s.paths) if n not in s.kept])
+    validation = _join([s.paths[n] for n in sorted(s.kept)])
     lines = []
     if s.paths:
         claims = s.diagnosed.found if s.diagnosed is not None else ()
@@ -263,14 +246,19 @@ def list_commands(s: State) -> list[str]:
     ]
 
 
+def _join(paths: Sequence[Path]) -> str:
+    """The files for a shell, each once."""
+    return shlex.join(dict.fromkeys(map(str, paths)))
+
+
 def _list_done(s: State, model: str, flights: str) -> list[str]:
     """The steps of the present branch, as comments."""
     history, names, lines = s.model.directory.history, {x.name for x in s.flights}, []
-    for step in (history[n] for n in Branches(history).path):
+    for step in (history[n] for n in list_present(history)):
         if step.action in ("add", "remove"):
             on = f" {flights if set(step.flights) <= names else 'FLIGHTS'}" if step.flights else ""
             lines.append(f"# done: ragg {step.action} {model} {shlex.quote(step.effect)}{on}")
-        elif step.action not in ("new", "restore"):
+        elif step.action != "new":
             lines.append(f"# done: {step.action} {numbers.clean(step.effect)}")
     return [one_line(x) for x in lines]
 
@@ -291,7 +279,7 @@ def _make_source(s: State, command: str) -> api.Source:
 def _write_steps(s: State) -> str:
     before, after = s.require("previous"), s.require("compared")
     history = s.model.directory.history
-    steps = [history[n].as_json() for n in Branches(history).path]
+    steps = [history[n].as_json() for n in list_present(history)]
     return pages.write_addition(steps, before, after, _make_source(s, "history"))
 
 

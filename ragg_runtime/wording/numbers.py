@@ -170,7 +170,8 @@ def unit_of_term(text: str) -> str:
     match = re.fullmatch(r"V/\((.*)\)", text)
     if match is None:
         return unit(text)
-    factors, parts = _count_factors(match[1]), []
+    squared = re.sub(r"\(([^()]*)\)\^2", r"\1*\1", match[1])
+    factors, parts = Counter(x for x in re.sub("[()]", "", squared).split("*") if x != "1"), []
     for factor, n in factors.items():
         symbol, several = unit(factor), n > 1 or len(factors) > 1
         power = str(n).translate(_SUPERSCRIPTS) if n > 1 else ""
@@ -180,24 +181,6 @@ def unit_of_term(text: str) -> str:
         return "V"
     bare = len(parts) == 1 and ("/" not in product or product[0] == "(")
     return f"V/{product}" if bare else f"V/({product})"
-
-
-def _count_factors(text: str) -> Counter[str]:
-    """The factors of a product of units, with how often each is in it: of products and powers in parentheses, those of what is inside."""
-    count, depth, parts = Counter[str](), 0, [""]
-    for c in text:
-        depth += (c == "(") - (c == ")")
-        if c == "*" and not depth:
-            parts.append("")
-        else:
-            parts[-1] += c
-    for part in parts:
-        if inner := re.fullmatch(r"\((.*)\)(?:\^(\d+))?", part):
-            for factor, n in _count_factors(inner[1]).items():
-                count[factor] += n * int(inner[2] or 1)
-        elif part != "1":
-            count[part] += 1
-    return count
 
 
 def with_unit(text: str, unit_: str) -> str:

@@ -25,29 +25,17 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.model.directory import HistoryStep, load_model_dir
 from ragg_runtime.studio import mapping, views
-from ragg_runtime.studio.session import Branches
+from ragg_runtime.studio.session import list_present
 from ragg_runtime.studio.views import mathml
 from ragg_runtime.wording import numbers
 
 
-def test_undo_and_redo_walk_along_a_branch() -> None:
-    words = (
-        "new, add lag, add time-offset, undo 1, undo 0, redo 1, edit, undo 1, redo 6, calibrate, restore 2"
-    )
+def test_an_undo_takes_the_last_step_back() -> None:
+    words = "new, add lag, add time-offset, undo 1, undo 0, edit, undo 0, calibrate"
     commands = [(*w.split(), "")[:2] for w in words.split(", ")]
     steps = [HistoryStep(action, "2026-01-01", effect, text="x") for action, effect in commands]
-
-    def state(count: int) -> tuple[list[int], int | None, int | None]:
-        b = Branches(steps[:count])
-        return b.path, b.undo, b.redo
-
-    assert state(3) == ([0, 1, 2], 1, None)
-    assert state(5) == ([0], None, 1)
-    assert state(6) == ([0, 1], 0, 2)
-    assert state(7) == ([0, 1, 6], 1, None)
-    assert state(8) == ([0, 1], 0, 6)
-    assert state(10) == ([0, 1, 6], 1, None)
-    assert state(11) == ([0, 1, 2], 1, None)  # what is shown is the state after step 2
+    paths = [list_present(steps[:n]) for n in (3, 4, 5, 6, 7, 8)]
+    assert paths == [[0, 1, 2], [0, 1], [0], [0, 5], [0], [0]]
 
 
 def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(tmp_path: Path) -> None:
@@ -114,7 +102,7 @@ def test_names_of_several_lines_stay_in_the_comments_of_a_shell(tmp_path: Path) 
         flights=[SimpleNamespace(name=evil)],
         cuts=[[(1.0, 2.0)]],
         diagnosed=None,
-        kept=0,
+        kept=frozenset(),
     )  # fmt: skip
     script = "ragg() { :; }\n" + "\n".join(views.list_commands(shown))  # type: ignore[arg-type]
     assert script.count("# done: ") == 2
@@ -229,8 +217,8 @@ def test_nothing_is_opened_made_or_served_from_elsewhere(client, folder, server)
         assert ask(server, client, f"GET /static/{path}") in ("403", "404")
 
 
-def test_uploads_keep_to_their_folder_their_kinds_and_their_size(client, folder, server) -> None:
-    for name in ("x.exe", "", ".csv", "model.toml", "a" * 200 + ".csv", "..", "x.csv/.."):
+def test_uploads_keep_to_their_folder_and_their_kinds(client, folder) -> None:
+    for name in ("x.exe", "", ".csv", "model.toml", "..", "x.csv/.."):
         assert client.post("/api/upload", params={"name": name}, content=b"x").status_code == 400, name
     assert client.post("/api/upload", params={"name": "empty.csv"}, content=b"").status_code == 400
     names = ("../../evil.csv", "..\\evil.csv")
@@ -248,9 +236,6 @@ def test_uploads_keep_to_their_folder_their_kinds_and_their_size(client, folder,
     assert damaged.status_code == 400
     assert "cannot be read" in damaged.json()["error"]["what"]
     assert sorted(p.name for p in inside.iterdir()) == kept
-    headers = (f"Origin: {server.origin}", "Content-Length: 99999999999999")
-    assert ask(server, client, "POST /api/upload?name=big.csv", *headers) == "400"
-    assert not (inside / "big.csv").exists()
 
 
 def test_a_request_that_does_not_arrive_is_closed(client: httpx.Client, server: Served, folder: Path) -> None:
@@ -347,16 +332,16 @@ def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(clien
     both = compared(client)
     assert client.post("/api/do/validate", json={"flight": 0}).status_code == 202
     state = compared(client)
-    assert [(f["name"], f["kept"]) for f in state["flights"]] == [("b", False), ("demo-flight", True)]
+    assert [(f["name"], f["kept"]) for f in state["flights"]] == [("demo-flight", True), ("b", False)]
     assert state["error"] != both["error"]
     assert any(line.endswith("demo-flight.parquet --frozen") for line in state["commands"])
-    assert client.post("/api/do/validate", json={"flight": 0}).status_code == 400  # one is to be fitted
+    assert client.post("/api/do/validate", json={"flight": 1}).status_code == 400  # one is to be fitted
     row = next(r for r in state["sheet"]["rows"] if r["name"] == "K1")
     change = {"value": row["values"], "unit": row["unit"], "sigma": None, "fixed": True}
     assert client.post("/api/do/edit", json={"values": {"K1": change}}).status_code == 202
     state = compared(client, "validation")
     assert "The calibration on b " in state["validation"]
-    kept = client.get("/api/panel", params={"what": "time", "flight": 1, "fan": 1})
+    kept = client.get("/api/panel", params={"what": "time", "flight": 0, "fan": 1})
     assert "residual" in kept.text and "models within" not in kept.text
     instrument = load_model_dir(folder / "model").instrument
     assert instrument.fixed == {"K1"}

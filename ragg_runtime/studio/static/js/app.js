@@ -33,7 +33,6 @@ function tools() {
   fill(
     $("tools"),
     h("button.icon", { type: "button", disabled: !(history && history.can_undo), onclick: () => doing("undo"), title: "Undo (u)", "aria-label": "Undo" }, "↶"),
-    h("button.icon", { type: "button", disabled: !(history && history.can_redo), onclick: () => doing("redo"), title: "Redo (r)", "aria-label": "Redo" }, "↷"),
     h("button.icon", { type: "button", onclick: darker, title: "Light or dark (d)", "aria-label": "Light or dark" }, "◐"),
     h("button.icon", { type: "button", onclick: help, title: "Keys (?)", "aria-label": "Keys" }, "?"),
   );
@@ -84,7 +83,6 @@ function opened() {
 
 const KEYS = {
   u: () => doing("undo"),
-  r: () => doing("redo"),
   d: darker,
   "?": help,
   Escape: () => trouble(null),
@@ -168,7 +166,7 @@ const HELP = [
   ["[, ]", "move left and right"],
   ["0", "the whole flight"],
   ["f, o", "next flight, next output"],
-  ["u, r", "undo, redo"],
+  ["u", "undo"],
   ["d", "light or dark"],
 ];
 

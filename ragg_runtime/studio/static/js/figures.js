@@ -86,10 +86,7 @@ function cuts(f, busy) {
 
 /** A flight is fitted, or kept to validate the calibration on the others. */
 const validated = (f, state) => h("button.keep", { type: "button", disabled: Boolean(state.status.job), "aria-pressed": String(f.kept), title: "Calibrate on the other flights and see how that holds here",
-  onclick: async () => {
-    const fitted = state.flights.filter((x) => !x.kept).length;
-    if (await doing("validate", { flight: view.flight })) look({ flight: f.kept ? fitted : state.flights.length - 1 });
-  } }, f.kept ? "kept for validation" : "keep for validation");
+  onclick: () => doing("validate", { flight: view.flight }) }, f.kept ? "kept for validation" : "keep for validation");
 
 /** Flight, output, window, what is left out, notes. */
 function windowHead(box) {

@@ -3,8 +3,6 @@ import { ask, doing, post, Refused, trouble, upload } from "./api.js";
 import { calm, counted, fill, h, hertz, number, s } from "./dom.js";
 import { look, on, server, view } from "./store.js";
 
-const SIZE = (b) => (b > 1e9 ? `${number(b / 1e9)} GB` : b > 1e6 ? `${number(b / 1e6)} MB` : b > 1e3 ? `${number(b / 1e3)} kB` : `${b} B`);
-
 export function filesView(main) {
   const now = h("section.card");
   const list = h("section.card"), columns = h("section.card", { hidden: true });
@@ -36,7 +34,7 @@ export function filesView(main) {
         e.kind === "folder" ? h("button.quiet", { type: "button", onclick: () => show(e.path) }, `${e.name}/`)
         : e.kind === "model" ? [h("span", {}, h("b", {}, e.name), h("small", {}, " model directory")), h("span.do", {}, h("button", { type: "button", onclick: () => show(e.path) }, "look inside"), h("button", { type: "button", disabled: busy, onclick: () => open(e.path, []) }, "open"))]
         : e.kind === "sheet" ? [h("span", {}, e.name, h("small", {}, " test sheet")), h("span.do", {}, h("button", { type: "button", disabled: busy, onclick: () => doing("new", { model: `${folder}/${name.value}`, sheet: e.path }) }, "make a model of it"))]
-        : [h("label", {}, h("input", { type: "checkbox", checked: chosen.has(e.path), onchange: (x) => (x.target.checked ? chosen.add(e.path) : chosen.delete(e.path), show(folder)) }), e.name, h("small", {}, ` ${SIZE(e.bytes)}`)),
+        : [h("label", {}, h("input", { type: "checkbox", checked: chosen.has(e.path), onchange: (x) => (x.target.checked ? chosen.add(e.path) : chosen.delete(e.path), show(folder)) }), e.name),
           e.kind === "flight" && model ? h("span.do", {}, h("button", { type: "button", disabled: busy, onclick: () => mappingPane(columns, e.path, trouble), "aria-label": `Describe the columns of ${e.name}` }, "columns")) : null]))),
       h("div.row", {},
         h("button.main", { type: "button", disabled: !chosen.size || !model || busy, onclick: () => open(null, [...chosen]) }, chosen.size ? `Open ${chosen.size} ${chosen.size > 1 ? "flights" : "flight"} with ${model ? server.state.model.name : "a model"}` : "Tick flights to open them"),

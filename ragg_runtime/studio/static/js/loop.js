@@ -28,7 +28,7 @@ function banner(box) {
     const [verdict] = state.result, key = JSON.stringify([state.status.revision, verdict]);
     if (key === shown) return;
     shown = key;
-    fill(box, sections(verdict), state.history.steps.some((s) => s.after !== "–") ? pictureNode("steps", { of: state.status.revision }) : null);
+    fill(box, sections(verdict), state.history.can_undo ? pictureNode("steps", { of: state.status.revision }) : null);
   };
   const begin = (state) => {
     const busy = Boolean(state && state.status.job), flown = Boolean(state && state.flights.length);

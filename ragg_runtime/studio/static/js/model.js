@@ -99,38 +99,15 @@ export function sheetView(main) {
   return on("server", known);
 }
 
-// The steps as they were made, and the branches that were left.
-
-const SAID = { new: "made from a test sheet", add: "added", remove: "removed", edit: "sheet edited:", undo: "undo", redo: "redo", restore: "went back", calibrate: "calibration saved" };
+// The steps as they were made.
 
 export function historyView(main) {
-  const steps = h("section.card");
-  fill(main, steps);
   const known = () => {
     const { state } = server;
     if (!state || !state.history) return void fill(main, h("p.empty-note", {}, "Open a model directory to see its history."));
-    if (!steps.isConnected) fill(main, steps);
-    listed(state);
-  };
-
-  const listed = (state) => {
-    const { history } = state, busy = Boolean(state.status.job);
-    fill(
-      steps,
-      h("h2", {}, "History"),
-      h("p.note", {}, "Append-only: undo and redo are steps, too. Grey steps are on a branch that was left; you can go back to each."),
-      h("div.row", {},
-        h("button", { type: "button", disabled: !history.can_undo || busy, onclick: () => doing("undo") }, "Undo"),
-        h("button", { type: "button", disabled: !history.can_redo || busy, onclick: () => doing("redo") }, "Redo")),
-      h("div.wide", {}, h("table.numbers.history", {},
-        h("thead", {}, h("tr", {}, h("th", {}, "no."), h("th", {}, "when"), h("th", {}, "step"), h("th.n", {}, "before, Eo"), h("th.n", {}, "after, Eo"), h("th.n", {}, "held out, Eo"), h("th", {}, "flights"), h("th", { "aria-label": "what can be done" }))),
-        h("tbody", {}, [...history.steps].reverse().map((s) => h("tr", { class: s.present ? "" : "abandoned" },
-          h("td", {}, String(s.n + 1)), h("td", {}, new Date(s.time).toLocaleString("sv")),
-          h("th", { scope: "row" }, `${SAID[s.action] || s.action} `, s.action === "add" || s.action === "remove" ? h("code", {}, s.effect) : /^\d+$/.test(s.effect) ? `to the state after step ${Number(s.effect) + 1}` : s.effect, s.n === history.now ? h("em.badge", {}, "current") : null),
-          [s.before, s.after, s.holdout].map((x) => h("td.n", {}, x)),
-          h("td", {}, s.flights.join(", ")),
-          h("td.do", {},
-            s.kept && s.n !== history.now ? h("button", { type: "button", disabled: busy, onclick: () => doing("restore", { step: s.n }), "aria-label": `Go back to the state after step ${s.n + 1}` }, "go back") : null)))))));
+    fill(main, h("section.card", {}, sections(state.history.steps),
+      h("p.note", {}, "Append-only: an undo is a step, too."),
+      h("div.row", {}, h("button", { type: "button", disabled: !state.history.can_undo || Boolean(state.status.job), onclick: () => doing("undo") }, "Undo"))));
   };
   known();
   return on("server", known);
