@@ -57,18 +57,15 @@ def compare(
     odd = _list_oddities(m) if frozen else []
     records = read(m, flights, mapping)
     names = [x.name for x in records]
-    command, again = (next_command(v, model_dir, records, mapping) for v in ("diagnose", "calibrate"))
     with working("comparing" if frozen else "calibrating and comparing", "compare", records):
         saved = api.compare_frozen(m, records) if frozen else None
         c = api.compare(m, records) if saved is None else saved.comparison
     result = c.as_json() if saved is None else saved.as_json()
-    if saved is None:
-        sections = describe.describe_comparison(result, names, command)
-    else:
-        sections = describe.describe_held(result, names, command, again)
+    sections = (describe.describe_held if frozen else describe.describe_comparison)(result, names)
     title = f"{m.name}, frozen, and {', '.join(names)}" if frozen else ""
     source = make_source(m, records, further=odd, title=title)
-    conclude(result, sections, source, lambda: pages.write_comparison(c, source, saved))
+    after = "" if frozen or c.adequate else next_command("diagnose", model_dir, records, mapping)
+    conclude(result, sections, source, lambda: pages.write_comparison(c, source, saved), after)
 
 
 def _list_oddities(m: Loaded) -> list[str]:
@@ -92,10 +89,10 @@ def diagnose(model_dir: Path, flights: Sequence[Path], limits: Sequence[str], ma
     with working("calibrating, then testing every effect of the catalogue", "diagnose", records):
         d = api.diagnose(m, records, allowed)
     result = d.as_json()
-    command = next_command("add", model_dir, records, mapping, d.found[0]) if d.found else ""
-    sections = describe.describe_diagnosis(result, command)
+    after = next_command("add", model_dir, records, mapping, d.found[0]) if d.found else ""
     source = make_source(m, records)
-    conclude(result, sections, source, lambda: pages.write_diagnosis(d, source))
+    page = lambda: pages.write_diagnosis(d, source)  # noqa: E731
+    conclude(result, describe.describe_diagnosis(result), source, page, after)
 
 
 @click.command(cls=Command, report=True)
@@ -122,9 +119,10 @@ def add(model_dir: Path, effect: str, flights: Sequence[Path], mapping: Path | N
             return pages.write_addition(steps, result.before, result.after, source)
 
         data = result.as_json()
-        sections = describe.describe_addition(data, [e.id for e in result.loaded.model.effects], check, use)
+        sections = describe.describe_addition(data, [e.id for e in result.loaded.model.effects])
         source = make_source(result.loaded, records, before=m, title=f"{m.name}: {effect} added")
-        conclude(data, sections, source, page)
+        after = "" if result.after is None else use if result.after.adequate else check
+        conclude(data, sections, source, page, after)
 
     with working(f"deriving the model with {effect}{', calibrating' if flights else ''}", "add", records):
         result = api.add(m, effect, records, tell)
@@ -211,10 +209,7 @@ def calibrate(
     result = c.as_json()
     if planned is not None:
         result |= next_flight.certify(planned, c.calibrated.fitted, result)
-    drifts = drift and result["drifting"]["rates"]
-    use = f"{next_command('compensate', model_dir, records)} -o compensated.csv --calibration "
-    command = f"{use}{'smoothed' if drifts else 'frozen'}" if drifts or c.saved else ""
-    sections = describe_other.describe_calibration(result, [x.name for x in records], command)
+    sections = describe_other.describe_calibration(result, [x.name for x in records])
     source = make_source(c.loaded, records)
     conclude(result, sections, source, lambda: pages.write_calibration(sections, c.calibrated.fitted, source))
 

@@ -160,6 +160,7 @@ def conclude(
     sections: Sequence[Section],
     source: Source | None = None,
     page: Callable[[], str] | None = None,
+    after: str = "",
 ) -> None:
     """Write the report and the JSON where they are asked for, and the result to stdout.
 
@@ -173,6 +174,8 @@ def conclude(
         What it was made from; notes on its flights follow the result.
     page
         Makes the report.
+    after
+        The command that comes next.
     """
     report, document = find_wanted("report_file"), find_wanted("json_file")
     if report is not None and page is not None:
@@ -191,7 +194,8 @@ def conclude(
             return
         write_text(Path(document), text + "\n")
     noted = list_notes([] if source is None else source.flights)
-    click.echo(render_text([*sections, *noted], verbose=bool(find_wanted("verbose"))))
+    following = [Section(sentences=(f"next: {after}",))] if after else []
+    click.echo(render_text([*sections, *following, *noted], verbose=bool(find_wanted("verbose"))))
 
 
 def list_notes(flights: Sequence[Flight]) -> list[Section]:

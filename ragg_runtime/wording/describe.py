@@ -98,10 +98,6 @@ def make_floor_row(c: Json) -> tuple[str, Json]:
     return "noise floor", floor | {f"{k}_Eo_per_rtHz": v and v / math.sqrt(0.2) for k, v in channels.items()}
 
 
-def suggest_next(command: str) -> Sections:
-    return (Section(sentences=(f"next: {command}",)),) if command else ()
-
-
 def say_plainly(*sentences: str, title: str = "") -> Sections:
     return (Section(title, sentences),)
 
@@ -142,12 +138,7 @@ def excess(error: float, noise: float) -> float:
 
 
 def describe_comparison(
-    c: Json,
-    flights: Sequence[str],
-    command: str = "",
-    rows: Sequence[tuple[str, Json]] = (),
-    *,
-    judged: bool = True,
+    c: Json, flights: Sequence[str], rows: Sequence[tuple[str, Json]] = (), *, judged: bool = True
 ) -> Sections:
     """The result of ``compare``; ``rows`` replace the usual errors, not ``judged``: the parameters are others now."""
     e, where = c["error"], c["where"]
@@ -170,8 +161,7 @@ def describe_comparison(
             if b["over_noise"] > 1.15
         ]
         sections.append(Section("Where it fails", tuple(worst), tabulate_terms(where["motion"])))
-    sections += _describe_off_sheet(c["off_sheet"])
-    return (*sections, *(suggest_next(command) if judged and not c["adequate"] else ()))
+    return (*sections, *_describe_off_sheet(c["off_sheet"]))
 
 
 def write_comparison_headline(c: Json) -> str:
@@ -186,8 +176,8 @@ def write_comparison_headline(c: Json) -> str:
     )
 
 
-def describe_held(c: Json, flights: Sequence[str], command: str = "", calibrate: str = "") -> Sections:
-    """The result of ``compare --frozen``; ``calibrate`` is the command that calibrates anew."""
+def describe_held(c: Json, flights: Sequence[str]) -> Sections:
+    """The result of ``compare --frozen``."""
     h = c["frozen"]
     frozen, free = c["error"]["calibrated"], h["free"]["calibrated"]
     holds, on = "holds" if h["holds"] else "does NOT hold", write_flights(list(h["flights"]))
@@ -198,7 +188,7 @@ def describe_held(c: Json, flights: Sequence[str], command: str = "", calibrate:
         f" {number(h['chi2'])} in {h['degrees_of_freedom']} directions ({numbers.equate_probability(h['log10_p'])}).",
     )
     rows = (("nominal", c["error"]["nominal"]), ("frozen", frozen), ("free", free))
-    first, *others = describe_comparison(c, flights, command, rows, judged=False)
+    first, *others = describe_comparison(c, flights, rows, judged=False)
     sections = [Section(sentences=(*head, *first.sentences), state="good" if h["holds"] else "bad"), *others]
     if h["suspects"]:
         single: Columns = {
@@ -208,8 +198,7 @@ def describe_held(c: Json, flights: Sequence[str], command: str = "", calibrate:
         }
         title = "Single parameters whose change would explain it"
         sections.append(Section(title, table=tabulate(h["suspects"], single)))
-    save = "" if h["holds"] or not calibrate else f"if the instrument may have changed: {calibrate} --save"
-    return (*sections, *suggest_next(save))
+    return tuple(sections)
 
 
 def write_verdict(d: Json) -> str:
@@ -307,8 +296,8 @@ def describe_values(effects: Sequence[Json], *, explained: bool = False) -> Sect
     return tuple(sections)
 
 
-def describe_diagnosis(d: Json, command: str = "") -> Sections:
-    """The result of ``diagnose``; ``command`` is the command that adds what was found."""
+def describe_diagnosis(d: Json) -> Sections:
+    """The result of ``diagnose``."""
     claimed = [r for r in d["ranking"] if r["effect"] in d["found"]]
     values = [p for e in claimed for p in _list_values(e) if _is_clear(p, e)]
     lines = (write_verdict(d), *map(describe_finding, claimed), *_list_remarks(d), *explain_patterns(values))
@@ -326,8 +315,7 @@ def describe_diagnosis(d: Json, command: str = "") -> Sections:
     if d["next_motion"]:
         sections.append(Section("Next motion", tuple(map(write_motion, d["next_motion"]))))
     sections += _list_untestable(d)
-    sections += _describe_off_sheet(d["off_sheet"])
-    return (*sections, *(suggest_next(command) if d["found"] else ()))
+    return (*sections, *_describe_off_sheet(d["off_sheet"]))
 
 
 def _list_remarks(d: Json) -> list[str]:
@@ -467,11 +455,8 @@ def describe_step(
     return (first, tabulate_errors([*rows, make_floor_row(after)]), *describe_values(values))
 
 
-def describe_addition(a: Json, effects: Sequence[str], diagnose: str = "", calibrate: str = "") -> Sections:
-    """The result of ``add``; ``effects`` are those of the model afterwards.
-
-    ``diagnose``, ``calibrate``: commands to run next if the model is not adequate yet, and if it is.
-    """
+def describe_addition(a: Json, effects: Sequence[str]) -> Sections:
+    """The result of ``add``; ``effects`` are those of the model afterwards."""
     if not a.get("converged", True):
         return say_plainly(f"{a['effect']!s} was NOT added: {a['reason']!s}.")
     if a["before"] is None or a["after"] is None:
@@ -480,7 +465,6 @@ def describe_addition(a: Json, effects: Sequence[str], diagnose: str = "", calib
         *describe_step([a["effect"]], [], a["before"], a["after"], [a]),
         *say_plainly(f"{write_effects(effects)}."),
         *_describe_off_sheet(a["off_sheet"]),
-        *suggest_next(calibrate if a["after"]["adequate"] else diagnose),
     )
 
 

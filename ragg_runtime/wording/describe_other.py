@@ -20,7 +20,6 @@ from ragg_runtime.wording.describe import (
     make_floor_row,
     say_plainly,
     significance,
-    suggest_next,
     tabulate_errors,
     write_effects,
     write_errors,
@@ -48,7 +47,7 @@ UNTIMED = (
 )
 
 
-def describe_calibration(c: Json, flights: Sequence[str], command: str = "") -> Sections:
+def describe_calibration(c: Json, flights: Sequence[str]) -> Sections:
     """The result of ``calibrate``."""
     e, directions, model = c["error"], c["directions"], write_effects(c["effects"])
     head = (
@@ -68,7 +67,6 @@ def describe_calibration(c: Json, flights: Sequence[str], command: str = "") -> 
         *tabulate_parameters(c["combinations"], c["parameters"]),
         *(_describe_drift(c["drifting"]) if "drifting" in c else ()),
         *(_describe_certificate(c["certificate"], c["certified"]) if "certificate" in c else ()),
-        *suggest_next(command),
     )
 
 

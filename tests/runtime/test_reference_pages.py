@@ -159,7 +159,7 @@ def test_the_commands_work_as_typed_and_print_the_next_one(said: dict[str, str],
     flight = "examples/demo-flight.parquet"
     assert f"next: ragg diagnose my-model {flight}" in said["compare"]
     assert f"next: ragg add my-model thermal-scale {flight}" in said["diagnose"]
-    assert f"ragg compensate my-model {flight} -o compensated.csv --calibration frozen" in said["calibrate"]
+    assert f"next: ragg calibrate my-model {flight} --save" in said["add"]
 
 
 ERROR = {"rms_V", "rms_Eo", "inline_Eo", "cross_Eo", "inline_Eo_per_rtHz", "cross_Eo_per_rtHz"}
