@@ -71,8 +71,7 @@ def _made(app: Sphinx, config: Any) -> None:
     from derive import audit
     from derive.simplify.page import page as simplified
     from docs import made as build
-    from ragg_runtime.experiments import write_page
-    from ragg_runtime.experiments.repeat import repeat_dynamic, repeat_multifrequency, repeat_turbulence
+    from ragg_runtime.experiments import repeat_dynamic, repeat_multifrequency, repeat_turbulence, write_page
 
     target = HERE / "_made"
     (target / "effects").mkdir(parents=True, exist_ok=True)

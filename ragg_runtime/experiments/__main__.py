@@ -6,8 +6,13 @@ from collections.abc import Callable, Mapping, Sequence
 
 import click
 
-from ragg_runtime.experiments import Experiment, write_page
-from ragg_runtime.experiments.repeat import repeat_dynamic, repeat_multifrequency, repeat_turbulence
+from ragg_runtime.experiments import (
+    Experiment,
+    repeat_dynamic,
+    repeat_multifrequency,
+    repeat_turbulence,
+    write_page,
+)
 
 EXPERIMENTS: Mapping[str, Callable[[], Experiment]] = {
     "multifrequency": repeat_multifrequency,

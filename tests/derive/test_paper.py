@@ -39,15 +39,16 @@ from derive.simplify.page import critical_conditions
 from derive.stages import PAPER
 from derive.symbols import MOTION, SECOND_ORDER, SIGNS, SPIN_ACCELERATION, SPIN_RATE
 from ragg_runtime.estimation.regressors import list_base_columns
-from ragg_runtime.experiments import Experiment, write_page
-from ragg_runtime.experiments.__main__ import main
-from ragg_runtime.experiments.repeat import (
+from ragg_runtime.experiments import (
+    Experiment,
     find_error,
     repeat_dynamic,
     repeat_multifrequency,
     repeat_turbulence,
     run_regular,
+    write_page,
 )
+from ragg_runtime.experiments.__main__ import main
 from ragg_runtime.model.model import load_packaged
 from ragg_runtime.reference.scenario import table_v
 
