@@ -108,20 +108,7 @@ def list_channels(s: Series) -> tuple[str, ...]:
     return (s.name,) if isinstance(s, ChannelName) else list_channels(s.of)
 
 
-@dataclass(frozen=True)
-class HarmonicName:
-    """cos or sin of ``multiple`` times the disc angle; multiple 0 is the constant."""
-
-    function: Literal["cos", "sin"]
-    multiple: int
-
-    def __str__(self) -> str:
-        return f"{self.function} {self.multiple}" if self.multiple else "const"
-
-
-def harmonic(name: str) -> HarmonicName:
-    """The harmonic of a name: ``const``, ``cos 2``, ``sin 1``."""
-    if name == "const":
-        return HarmonicName("cos", 0)
-    function, multiple = name.split()
-    return HarmonicName("sin" if function == "sin" else "cos", int(multiple))
+def harmonic(name: str) -> tuple[str, int]:
+    """Function (cos, sin) and multiple of the disc angle of a harmonic: ``const`` (cos, 0), ``cos 2``, ``sin 1``."""
+    function, _, multiple = name.partition(" ")
+    return (function, int(multiple)) if multiple else ("cos", 0)

@@ -364,7 +364,7 @@ def predict_harmonic_noise(f: Fitted, harmonics: Iterable[str]) -> dict[str, flo
     works = [(w, s) for w, s in zip(f.prepared, f.scales, strict=True) if _is_long(w)]
     noise = {}
     for h in harmonics:
-        k = series_name.harmonic(h).multiple
+        _, k = series_name.harmonic(h)
         squares = [predict_demodulated_noise(w, s, k, 2.0 if k else 1.0) ** 2 for w, s in works]
         noise[h] = float(np.sqrt(np.mean(squares))) if squares else float("nan")
     return noise

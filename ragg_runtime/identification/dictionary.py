@@ -247,11 +247,11 @@ def list_harmonics(highest: int = HIGHEST) -> tuple[str, ...]:
 
 def make_carrier(r: Record, harmonic: str) -> Array:
     """(N,): 1, cos(k phi) or sin(k phi)."""
-    h = series_name.harmonic(harmonic)
-    if not h.multiple:
+    function, multiple = series_name.harmonic(harmonic)
+    if not multiple:
         return np.ones(len(r.time))
-    z = (r.cos_phi + 1j * r.sin_phi) ** h.multiple
-    return np.asarray(z.real if h.function == "cos" else z.imag)
+    z = (r.cos_phi + 1j * r.sin_phi) ** multiple
+    return np.asarray(z.real if function == "cos" else z.imag)
 
 
 # --- whitened: the directions along which a residual is asked. Any tells a standard normal deviate from white noise; the

@@ -250,13 +250,12 @@ def _write_series(s: Series, centre: Mapping[str, float]) -> str | None:
 
 def _write_carrier(name: str) -> tuple[str, ...]:
     """A harmonic of the disc angle as a polynomial in cos_phi and sin_phi (de Moivre)."""
-    h = series_name.harmonic(name)
-    k = h.multiple
+    function, k = series_name.harmonic(name)
     if not k:
         return ()
     terms = []
     # powers of i sin phi: real for cos, imaginary for sin
-    for n in range(0 if h.function == "cos" else 1, k + 1, 2):
+    for n in range(0 if function == "cos" else 1, k + 1, 2):
         factor = comb(k, n) * (-1) ** (n // 2)
         powers = [f"{name}**{e}" if e > 1 else name for name, e in (("cos_phi", k - n), ("sin_phi", n)) if e]
         terms.append("*".join([*([] if factor == 1 else [str(factor)]), *powers]))

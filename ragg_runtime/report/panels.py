@@ -66,11 +66,6 @@ def find_envelope(time: Array, x: Array) -> tuple[Array, ...]:
     )
 
 
-def compute_measured(w: PreparedFlight) -> Array:
-    """(N,) V: what was observed, as G_out; zero where a sample is not valid."""
-    return combine_output(w.observation, w.observation.data)
-
-
 def estimate_spectrum(
     x: Array, valid: NDArray[np.bool_], rate: float, points: int = 260
 ) -> tuple[Array, Array] | None:
@@ -94,11 +89,6 @@ def estimate_spectrum(
     which = np.digitize(f, np.geomspace(f[0] * 0.999, f[-1] * 1.001, points + 1))
     means = np.array([[np.mean(f[which == k]), np.mean(psd[which == k])] for k in np.unique(which)])
     return means[:, 0], np.sqrt(means[:, 1])
-
-
-def compute_noise_density(w: PreparedFlight, k_ggi: float, spin: float, f: Array) -> Array:
-    """Density of the estimated noise as that of a G_out, Eo/sqrt(Hz)."""
-    return np.asarray(np.sqrt(compute_noise_psd(w, spin, f)) / k_ggi)
 
 
 def compute_noise_rms(w: PreparedFlight, k_ggi: float) -> float:
@@ -170,7 +160,7 @@ def plot_window(
     ``spread`` (2, N), V: least and greatest residual of models within the uncertainty of the parameters.
     """
     w, k = f.prepared[n], f.scales[n]
-    r, measured = w.observation.record, compute_measured(w)
+    r, measured = w.observation.record, combine_output(w.observation, w.observation.data)
     rows = slice(*np.searchsorted(r.time, window))
     if len(r.time[rows]) < LEAST:
         raise UserError("the segment is too short to be drawn", found=f"{len(r.time[rows])} samples")
@@ -218,7 +208,8 @@ def plot_spectrum(f: Fitted, lines: Lines) -> Curves | None:
         if not curves:
             continue
         grid, spin = curves[0].x, abs(r.spin_frequency)
-        curves.append(Curve("noise, as estimated", grid, compute_noise_density(w, k, spin, grid), "noise"))
+        noise = np.sqrt(compute_noise_psd(w, spin, grid)) / k
+        curves.append(Curve("noise, as estimated", grid, noise, "noise"))
         marks = tuple(
             (j * spin, "Ω" if j == 1 else f"{j}Ω") for j in range(1, 5) if grid[0] < j * spin < grid[-1]
         )

@@ -286,14 +286,10 @@ def _list_notes(done: Sequence[Json]) -> Sections:
 
 
 def _tabulate_trends(parameters: Sequence[Json]) -> Section:
-    def mean(t: Json) -> str:
-        std = min(s for s in t["stds"] if s is not None)
-        return numbers.with_unit(numbers.round_value(t["mean"], std), t["unit"])
-
     columns: Columns = {
         "parameter": label_parameter,
         "flights": lambda t: str(t["dof"] + 1),
-        "mean": mean,
+        "mean": lambda t: numbers.with_unit(number(t["mean"], 4), t["unit"]),
         "scatter": lambda t: number(t["scatter"], 2),
         "χ²/dof": lambda t: number(t["chi2"] / t["dof"], 2),
         "slope/sd": lambda t: number(t["slope_z"], 2),

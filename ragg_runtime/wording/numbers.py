@@ -75,30 +75,16 @@ def plus_minus(value: float, std: float) -> str:
     """Value and uncertainty to two digits of the latter: 12.3 ± 4.5, or 12.345678(45) where many digits are known."""
     if not (math.isfinite(value) and math.isfinite(std) and std > 0.0):
         return number(value, 4)
-    v, s, decimals, scale = _digits(value, std)
+    exponent = math.floor(math.log10(max(abs(value), std)))
+    scale = 0 if -3 <= exponent < 6 else exponent
+    v, s = value / 10.0**scale, float(f"{std / 10.0**scale:.1e}")
+    decimals = min(max(0, 1 - math.floor(math.log10(s))), 15)
     if decimals >= 6:
         text = f"{fixed(v, decimals)}({s * 10.0**decimals:.0f})"
     else:
         text = f"{fixed(v, decimals)}{THIN}±{THIN}{fixed(s, decimals)}"
         text = f"({text})" if scale else text
     return f"{text}{THIN}×{THIN}{power(scale)}" if scale else text
-
-
-def round_value(value: float, std: float) -> str:
-    """``value`` alone, with the digits that :func:`plus_minus` gives it."""
-    if not (math.isfinite(value) and math.isfinite(std) and std > 0.0) or value == 0.0:
-        return number(value, 4)
-    v, _, decimals, scale = _digits(value, std)
-    text = fixed(v, decimals)
-    return f"{text}{THIN}×{THIN}{power(scale)}" if scale else text
-
-
-def _digits(value: float, std: float) -> tuple[float, float, int, int]:
-    """Value and uncertainty over a common power of ten, decimals to print, and that power (0: none needed)."""
-    exponent = math.floor(math.log10(max(abs(value), std)))
-    scale = 0 if -3 <= exponent < 6 else exponent
-    v, s = value / 10.0**scale, float(f"{std / 10.0**scale:.1e}")
-    return v, s, min(max(0, 1 - math.floor(math.log10(s))), 15), scale
 
 
 LEAST_P = -16.0  # log10 of the least p-value that is written: below it the figure says no more

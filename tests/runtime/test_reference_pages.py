@@ -27,10 +27,10 @@ from derive.symbols import MOTION
 from docs import made
 from generated import folded
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.series_name import harmonic, series
+from ragg_runtime.base.series_name import series
 from ragg_runtime.cli.main import COMMANDS, cli
 from ragg_runtime.estimation.spectrum import Stretch
-from ragg_runtime.identification.dictionary import list_generic, list_harmonics
+from ragg_runtime.identification.dictionary import list_generic
 from ragg_runtime.instrument.model_toml import parse_instrument
 from ragg_runtime.io import files
 from ragg_runtime.model.model import load_files
@@ -246,7 +246,6 @@ def test_every_name_of_the_dictionary_is_printed_as_it_was_parsed() -> None:
     names = {n for product in list_generic(["temperature", "time"]) for n in product}
     assert len(names) > 50
     assert [str(series(n)) for n in sorted(names)] == sorted(names)
-    assert [str(harmonic(h)) for h in list_harmonics()] == list(list_harmonics())
 
 
 RECIPES = (Path(__file__).parents[2] / "CONTRIBUTING.md").read_text("utf-8")
