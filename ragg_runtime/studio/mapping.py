@@ -143,7 +143,7 @@ def _preview(m: Loaded, path: Path, mapping: Mapped) -> list[Json]:
         middle = numbers.number(float(np.median(finite)), 4) if len(finite) else numbers.ABSENT
         ends = [numbers.number(float(v), 3) for v in (finite.min(), finite.max())] if len(finite) else []
         row = {"channel": name, "unit": numbers.unit(si), "median": middle, "ends": ends}
-        rows.append(row | {"points": x[::step][:POINTS].tolist()})
+        rows.append(row | {"points": [v if np.isfinite(v) else None for v in x[::step][:POINTS].tolist()]})
     return rows
 
 

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import file_digest, lock, read_text
+from ragg_runtime.base.files import file_digest, read_text
 from ragg_runtime.base.progress import remark
 from ragg_runtime.io.record import SAME_RECORD
 from ragg_runtime.survey.examine import BETWEEN, CONTENT, Job, Record, examine, expand_lines, split_line
@@ -264,19 +264,12 @@ def open_journal(
 ) -> Iterator[tuple[dict[str, Record], Callable[[Record], None]]]:
     """Open or make a results file: its records of unchanged files, errors left out; and a function that writes a record to disc.
 
-    UserError if it is another survey's, or another process writes to it; without a path nothing is kept.
+    UserError if it is another survey's; without a path nothing is kept.
     """
     if path is None:
         yield {}, lambda record: None
         return
-    with path.open("a+b") as stream, contextlib.ExitStack() as stack:
-        try:
-            stack.enter_context(lock(path, 0.0))
-        except TimeoutError:
-            remedy = "wait until it has ended, or name another file"
-            raise UserError(
-                "another survey is writing to this results file", where=path, remedy=remedy
-            ) from None
+    with path.open("a+b") as stream:
 
         def write(content: Record) -> None:
             text = json.dumps(content, allow_nan=False, separators=(",", ":"))
