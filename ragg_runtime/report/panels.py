@@ -276,30 +276,18 @@ def plot_harmonics(f: Fitted, residuals: Sequence[Array]) -> Bars | None:
     return Bars("where-harmonic", caption, bars, "slow error, Eo")
 
 
-def list_error_steps(steps: Sequence[Mapping[str, Any]]) -> list[Bar]:
-    """The error after every step of a history, held out as dots: pale where the flights, not the model, are others."""
-    bars: list[Bar] = []
-    change = ""
-
-    def begin(value: float | None, holdout: float | None) -> None:
-        if value is not None and not (bars and abs(value - bars[-1].value) <= 0.02 * value):
-            label = change or ("other flights" if bars else "before")
-            bars.append(Bar(label, value, strong=bool(change), dot=np.nan if holdout is None else holdout))
-
-    for s in steps:
-        begin(describe.find_rms(s.get("before")), describe.find_rms(s.get("before"), "holdout"))
-        after, holdout = (describe.find_rms(s.get("after"), k) for k in ("calibrated", "holdout"))
-        if after is not None:
-            label = f"+ {s['effect']}" if s["action"] == "add" else str(s.get("effect") or s["action"])
-            bars.append(Bar(label, after, dot=np.nan if holdout is None else holdout))
-        removed = {"remove": f"{numbers.MINUS} {s.get('effect')}", "edit": "sheet edited"}
-        change = removed.get(str(s["action"]), "")
-    return bars
-
-
 def plot_history(steps: Sequence[Mapping[str, Any]], noise: float) -> Bars | None:
     """The error after every step of a history against the noise floor, held out as dots."""
-    bars, has_floor = list_error_steps(steps)[-STEPS:], np.isfinite(noise)
+    bars: list[Bar] = []
+    for s in steps:
+        before, after = (describe.find_rms(s.get(k)) for k in ("before", "after"))
+        if before is not None and not bars:
+            bars.append(Bar("before", before, strong=False))
+        if after is not None:
+            label = f"+ {s['effect']}" if s["action"] == "add" else str(s.get("effect") or s["action"])
+            holdout = describe.find_rms(s.get("after"), "holdout")
+            bars.append(Bar(label, after, dot=np.nan if holdout is None else holdout))
+    bars, has_floor = bars[-STEPS:], np.isfinite(noise)
     if not bars:
         return None
     top = max(b.value for b in bars)

@@ -94,7 +94,7 @@ def test_the_json_of_commands_that_fit_nothing_has_meanings(tmp_path, monkeypatc
         "effects lag",
         "info flight.parquet",
         "convert flight.parquet flight.csv",
-        "simulate model -o simulated.parquet --duration 60 --spin -0.25",
+        "simulate model -o simulated.parquet --duration 60",
         "add model bias-drift",
         "history model",
         "remove model bias-drift",

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
 import socket
 import struct
 import subprocess
 import time
-import tomllib
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
@@ -44,37 +42,36 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
     path = tmp_path / "flight.csv"
     foreign(path)
     draft = mapping.draft(m, path)
-    asked = [r for r in draft["rows"] if r["asked"]]
-    assert [r["channel"] for r in asked] == ["a_x", "a_y", "a_z"]
-    assert "not answered" in mapping.try_mapping(m, path, draft)["error"]["what"]
-    for r in asked:
-        r["unit"] = "g"
-    trial = mapping.try_mapping(m, path, draft)
+    assert [q.split(":")[0] for q in draft["questions"]] == [
+        "[columns] a_x",
+        "[columns] a_y",
+        "[columns] a_z",
+    ]
+    assert "not answered" in mapping.try_mapping(m, path, draft["text"])["error"]["what"]
+    text = draft["text"].replace('unit = "?"', 'unit = "m/s^2"')
+    trial = mapping.try_mapping(m, path, text)
     assert trial["error"] is None
-    x = next(p for p in trial["preview"] if p["channel"] == "a_z")
     raw = pyarrow.csv.read_csv(path)["ACC_Z"].to_numpy()
-    assert x["unit"] == "m/s²"
-    n = len(x["points"])
-    assert x["points"] == pytest.approx(raw[:: len(raw) // n][:n] * m.instrument.g0)
-    for r in asked:
-        r["unit"] = "m/s^2"
-    trial = mapping.try_mapping(m, path, draft)
-    mapping.keep(m, path, draft, replace=False)
+    assert "<td>a_z</td><td>m/s²</td>" in trial["preview"]
+    mapping.keep(m, path, text, replace=False)
     m = api.load(tmp_path / "model")
     (flight,) = api.read_flights(m, [path])
     assert flight.channels["a_z"] == pytest.approx(raw)
-    assert tomllib.loads(trial["text"]) == tomllib.loads((tmp_path / "model" / "mapping.toml").read_text())
-    assert mapping.draft(m, path)["rows"][0]["unit"] == "m/s^2"
-    draft["rows"][0]["sign"] = -1
+    assert mapping.draft(m, path)["text"] == (tmp_path / "model" / "mapping.toml").read_text() == text
+    other = text.replace('"ACC_X", unit', '"ACC_X", sign = -1, unit')
     with pytest.raises(UserError, match="mapping already"):
-        mapping.keep(m, path, draft, replace=False)
-    mapping.keep(m, path, draft, replace=True)
-    column = {"column": 'x"\n[time]', "unit": "g"}
-    for wrong in ({"scale": {"a": 1}}, column, {"scale": math.nan}, {"unit": "]"}):
-        bad = draft | {"rows": [draft["rows"][0] | wrong]}
-        assert mapping.try_mapping(m, path, bad)["error"]
+        mapping.keep(m, path, other, replace=False)
+    mapping.keep(m, path, other, replace=True)
+    for wrong in (
+        "[time",
+        text.replace("ACC_X", "nothing"),
+        text.replace("a_x", "a_q"),
+        text.replace("m/s^2", "]"),
+    ):
+        assert mapping.try_mapping(m, path, wrong)["error"]
+    for wrong in ("[time", text.replace("ACC_X", "nothing"), text.replace("m/s^2", "]")):
         with pytest.raises(UserError):
-            mapping.keep(m, path, bad, replace=True)
+            mapping.keep(m, path, wrong, replace=True)
 
 
 def test_every_equation_of_the_catalogue_is_typeset() -> None:

@@ -39,18 +39,6 @@ export function pictureNode(what, values) {
   return h("div", {}, image, note);
 }
 
-const SVG = "http://www.w3.org/2000/svg";
-
-/** The same for SVG. */
-export function s(tag, attributes = {}, ...children) {
-  const made = document.createElementNS(SVG, tag);
-  for (const [key, value] of Object.entries(attributes)) {
-    if (value !== undefined && value !== null) made.setAttribute(key, value);
-  }
-  append(made, children);
-  return made;
-}
-
 /** MathML from the server; anything else is shown as text. Its attributes run nothing: the page's policy allows no code but its own. */
 export function maths(text) {
   const root = new DOMParser().parseFromString(text || "", "application/xml").documentElement;
