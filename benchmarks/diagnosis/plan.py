@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 from benchmarks.diagnosis import records
 from ragg_runtime.instrument.instrument import DISC_UNITS, PARAMETERS, Instrument
 from ragg_runtime.instrument.layout import paper
-from ragg_runtime.instrument.model_toml import set_parameters
-from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import read_flight
 from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.motion import MotionSignals, Signal, recorded_motion
@@ -255,8 +253,10 @@ def model_text(instrument: Instrument) -> str:
     }
     if instrument.demodulation is not None:
         document["demodulator"] = dict(instrument.demodulation.entries())
-    values = {
-        p.name: RawQuantity(tuple(instrument.accelerometers[p.name].tolist()), p.si_unit) for p in PARAMETERS
+    table = {
+        p.name: {"value": instrument.accelerometers[p.name].tolist(), "unit": p.si_unit} for p in PARAMETERS
     }
-    sigmas = {n: tuple(x.tolist()) for n, x in instrument.sigmas.items()}
-    return set_parameters(tomlkit.dumps(document), values, sigmas)
+    for name, sigma in instrument.sigmas.items():
+        table[name]["sigma"] = sigma.tolist()
+    document["accelerometers"] = table
+    return tomlkit.dumps(document)

@@ -340,28 +340,6 @@ def _read_direction(table: Mapping[str, Any], key: str, where: str, default: Vec
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
-def set_parameters(
-    text: str,
-    values: Mapping[str, RawQuantity],
-    sigmas: Mapping[str, tuple[float, ...] | None] = _NOTHING,
-    fixed: Mapping[str, bool] = _NOTHING,
-) -> str:
-    """``text`` of a model.toml with some of ``[accelerometers]`` set, comments kept.
-
-    ``sigmas``, in the values' units, replace those of the sheet, ``None`` takes them out; of what is not named they stay where the unit
-    does. ``fixed`` marks those that are not fitted. Raises UserError for an unknown parameter.
-    """
-    document = _parse(text)
-    table: Any = document.setdefault("accelerometers", tomlkit.table())
-    check_keys(values, PARAMETER, "[accelerometers]")
-    for name, quantity in values.items():
-        further: dict[str, Any] = {"fixed": fixed[name]} if name in fixed else {}
-        if name in sigmas:
-            further["sigma"] = _write_number(sigmas[name] or ())
-        _put(table, name, quantity, further)
-    return tomlkit.dumps(document)
-
-
 def add_effect(text: str, setting: EffectSetting) -> str:
     """``text`` with the effect at the end of ``effects``, or with its values changed if it is there."""
     document = _parse(text)
@@ -445,13 +423,13 @@ def _write_number(value: float | tuple[float, ...]) -> int | float | list[Any]:
     return int(value) if value.is_integer() and abs(value) < 1e6 else value
 
 
-def _put(table: Any, name: str, quantity: RawQuantity, further: Mapping[str, Any] = _NOTHING) -> None:
+def _put(table: Any, name: str, quantity: RawQuantity) -> None:
     """Set a quantity; what is said of the old one besides stays, its sigma where the unit does."""
     old = table.get(name)
     entry = dict(old) if isinstance(old, dict) else {}
     if entry.get("unit") != quantity.unit:
         entry.pop("sigma", None)
-    table[name] = _write_inline(quantity, {**entry, **further})
+    table[name] = _write_inline(quantity, entry)
     if old is not None:
         table[name].trivia.comment, table[name].trivia.comment_ws = old.trivia.comment, old.trivia.comment_ws
 

@@ -20,10 +20,9 @@ from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.studio import figures, mapping, views
 from ragg_runtime.studio.files import check_flight, receive_flight
-from ragg_runtime.studio.session import Busy, Session, SheetEdit, describe_failure
+from ragg_runtime.studio.session import Busy, Session, describe_failure
 
 BEAT = 0.15  # how often a page hears of changes, s
 WATCH = 1.5  # how often the model directory is looked at for changes by others, s
@@ -206,18 +205,6 @@ def _leave(session: Session, body: Body) -> None:
     session.leave_out(body["flight"], (first, last))
 
 
-def _edit(session: Session, body: Body) -> None:
-    """Values of the test sheet: name -> as many numbers as accelerometers, unit, sigma, fixed."""
-    edits: dict[str, SheetEdit] = {}
-    for name, entry in body["values"].items():
-        sigma = None if entry.get("sigma") is None else tuple(map(float, entry["sigma"]))
-        value = RawQuantity(tuple(map(float, entry["value"])), entry["unit"])
-        edits[name] = SheetEdit(value, sigma, entry.get("fixed") is True)
-    if not edits:
-        raise UserError("no value was changed", remedy="change one, then save")
-    session.edit(edits)
-
-
 ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {
     "open": _open,
     "new": _new,
@@ -225,7 +212,7 @@ ACTIONS: Mapping[str, Callable[[Session, Body], None]] = {
     "look": lambda session, body: session.look(),
     "add": lambda session, body: session.add([*body["effects"]]),
     "remove": lambda session, body: session.remove(body["effect"]),
-    "edit": _edit,
+    "edit": lambda session, body: session.edit(body["text"]),
     "leave": _leave,
     "validate": lambda session, body: session.keep_for_validation(body["flight"]),
     "undo": lambda session, body: session.undo(),

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 from ragg_runtime import api
 from ragg_runtime.api import Held, Loaded
@@ -16,8 +16,6 @@ from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.instrument.model_toml import set_parameters
-from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import Flight
 from ragg_runtime.model.directory import HistoryStep, load_model_dir
 from ragg_runtime.studio.files import Places
@@ -28,14 +26,6 @@ Say = Callable[[str], None]  # says what is being worked on
 
 NOTHING: Mapping[str, None] = MappingProxyType(dict.fromkeys(("compared", "diagnosed", "held", "previous")))
 """What is known of another model or other flights."""
-
-
-class SheetEdit(NamedTuple):
-    """Values of a parameter, the sheet's sigmas in the same unit (``None``: none given), and whether it is fixed."""
-
-    value: RawQuantity
-    sigma: tuple[float, ...] | None
-    fixed: bool
 
 
 @dataclass(frozen=True)
@@ -216,13 +206,13 @@ class Session:
         self._idle()
         self._change(api.remove(self.state.model, effect))
 
-    def edit(self, values: Mapping[str, SheetEdit]) -> None:
-        """Change values of the test sheet, how sure it is of them, and which are fitted."""
+    def edit(self, text: str) -> None:
+        """Put another text in the place of model.toml."""
         self._idle()
-        value, sigma, fixed = ({n: e[k] for n, e in values.items()} for k in range(3))
         m = self.state.model
-        text = set_parameters(m.directory.text, value, sigma, fixed)  # type: ignore[arg-type]
-        self._change(api.change(m, text, "edit", ", ".join(values)))
+        if text == m.directory.text:
+            raise UserError("nothing was changed", remedy="change the text, then save")
+        self._change(api.change(m, text, "edit"))
 
     def undo(self) -> None:
         """Go back to the state before the present one."""

@@ -12,7 +12,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from latex2mathml.converter import convert
 
 from ragg_runtime import api
@@ -21,12 +20,11 @@ from ragg_runtime.base import false_alarms
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.identification.comparison import Comparison
 from ragg_runtime.identification.result import Diagnosis
-from ragg_runtime.instrument.instrument import PARAMETERS, Instrument
 from ragg_runtime.io.record import LEFT_OUT
 from ragg_runtime.report import pages, panels
 from ragg_runtime.studio.session import State, list_present
 from ragg_runtime.wording import describe, numbers
-from ragg_runtime.wording.sections import Section, Table, render_html
+from ragg_runtime.wording.sections import Section, render_html
 
 Json = dict[str, Any]
 
@@ -45,7 +43,7 @@ def describe_state(s: State) -> Json:
         "effects": [] if d is None else show_effects(d),
         "parameters": None if c is None else render_html(panels.describe_parameters(c.fitted)),
         "validation": None if s.held is None else _show_validation(s),
-        "sheet": None if m is None else show_sheet(m.instrument),
+        "sheet": None if m is None else m.directory.text,
         "history": None if m is None else _show_history(m),
         "before": s.previous is not None and c is not None,
     }
@@ -70,47 +68,6 @@ def _show_model(m: Loaded) -> Json:
         "notes": list(m.notes),
         "effects": [{"id": e.id, "title": e.title} for e in m.model.effects],
     }
-
-
-def show_sheet(i: Instrument) -> Json:
-    """Names of the accelerometers, of each parameter values, sigmas and plausible errors in its display unit, and the discs."""
-    rows = []
-    for q in PARAMETERS:
-        v = i.accelerometers[q.name]
-
-        def of(x: Any, digits: int, unit: str = q.si_unit, to: str = q.display_unit) -> list[float]:
-            return [float(f"{y:.{digits}g}") for y in i.units.from_si(np.asarray(x), unit, to)]
-
-        rows.append(
-            {
-                "name": q.name,
-                "meaning": q.description,
-                "unit": q.display_unit,
-                "unit_shown": numbers.unit(q.display_unit),
-                "values": of(v, 12),
-                "plausible": of(q.plausible_si(v, i.g0), 4),
-                "sigma": of(i.sigmas[q.name], 12) if q.name in i.sigmas else None,
-                "fixed": q.name in i.fixed,
-            }
-        )
-    return {
-        "names": list(i.layout.names),
-        "rows": rows,
-        "discs": render_html([Section("Discs", table=_tabulate_discs(i))]),
-    }
-
-
-def _tabulate_discs(i: Instrument) -> Table:
-    """The discs and what sits on them."""
-    layout, rows = i.layout, []
-    for k, d in enumerate(layout.discs):
-        members = [(n, p) for n, p in zip(layout.names, layout.places, strict=True) if p.disc == k]
-        places = ", ".join(f"{n} at {math.degrees(p.angle):.4g}°" for n, p in members)
-        radii = ", ".join(f"{r:g}" for r in sorted({p.radius for _, p in members}))
-        outputs = ", ".join(dict.fromkeys(layout.output_names[p.output] for _, p in members))
-        axis = ", ".join(f"{x:g}" for x in d.axis)
-        rows.append((d.name or str(k + 1), f"{d.spin_frequency:g}", radii, axis, places, outputs))
-    return Table(("disc", "spin, Hz", "radius, m", "axis", "accelerometers", "output"), tuple(rows), words=6)
 
 
 def _show_history(m: Loaded) -> Json:

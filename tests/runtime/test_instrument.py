@@ -14,7 +14,7 @@ from ragg_runtime import api
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text
 from ragg_runtime.instrument.instrument import PAPER_FORM, PARAMETERS, PRESETS, EffectSetting, Form
-from ragg_runtime.instrument.model_toml import add_effect, parse_instrument, remove_effect, set_parameters
+from ragg_runtime.instrument.model_toml import add_effect, parse_instrument, remove_effect
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.io import Flight, read_flight
 from ragg_runtime.io.files import convert
@@ -166,19 +166,6 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
     assert parse_instrument(read_text(tmp_path / "windows.toml")).radius == 0.1
 
 
-def test_edits_keep_everything_else() -> None:
-    quantities = {"dR": RawQuantity((1.0, 2.5, 3.0, 4.0), "um"), "K5": RawQuantity(7.0, "ug/g^2")}
-    text = set_parameters(TEXT, quantities)
-    instrument = parse_instrument(text)
-    assert instrument.accelerometers["dR"] == pytest.approx([1e-6, 2.5e-6, 3e-6, 4e-6])
-    assert instrument.accelerometers["K5"] == pytest.approx([7e-6 / 9.8] * 4)
-    kept = [line for line in TEXT.splitlines() if not line.startswith("dR")]
-    assert [line for line in text.splitlines() if line in kept] == kept
-    assert "# with the ruler" in next(line for line in text.splitlines() if line.startswith("dR"))
-    with pytest.raises(UserError, match="did you mean 'K5'"):
-        set_parameters(TEXT, {"k5": RawQuantity(7.0, "ug/g^2")})
-
-
 def test_effects_come_and_go_without_a_trace() -> None:
     cubic = EffectSetting("cubic-input", {"K_iii": RawQuantity((2.0, 0.0, 0.0, 0.0), "ug/g^3")})
     lag = EffectSetting("lag", {"tau": RawQuantity(1.5, "ms")})
@@ -211,8 +198,6 @@ def test_the_sheet_can_say_how_sure_it_is(sigma: str, four: list[float]) -> None
     instrument = parse_instrument(sure(sigma))
     np.testing.assert_allclose(instrument.sigma("K1"), np.array(four) * 1e-3 / 9.8, rtol=1e-14)
     np.testing.assert_allclose(instrument.sigma("K2"), 20e-6 / 9.8, rtol=1e-14)  # as sure as is plausible
-    kept = parse_instrument(set_parameters(sure(sigma), {"K1": RawQuantity(10.5, "mA/g")}))
-    np.testing.assert_array_equal(kept.sigma("K1"), instrument.sigma("K1"))
 
 
 EXAMPLE = (Path(__file__).parents[2] / "ragg_runtime" / "example.toml").read_text("utf-8")

@@ -267,8 +267,7 @@ def test_a_long_or_broken_body_is_refused(client: httpx.Client) -> None:
         assert client.post("/api/mapping", json=body).status_code == 400
     assert client.get("/api/mapping", params={"flight": "/etc/passwd"}).status_code == 400
     for wrong in (10**400, "twelve", None):  # no float holds the first
-        values = {"K0": {"value": [wrong, 0, 0, 0], "unit": "ug"}}
-        assert client.post("/api/do/edit", json={"values": values}).status_code == 400
+        assert client.post("/api/do/edit", json={"text": wrong}).status_code == 400
         assert client.post("/api/do/leave", json={"flight": 0, "from": wrong, "to": 1}).status_code == 400
     assert client.post("/api/do/unheard-of", json={}).status_code == 400
 
@@ -333,9 +332,8 @@ def test_a_flight_kept_for_validation_and_a_fixed_parameter_are_not_fitted(clien
     assert state["error"] != both["error"]
     assert any(line.endswith("demo-flight.parquet --frozen") for line in state["commands"])
     assert client.post("/api/do/validate", json={"flight": 1}).status_code == 400  # one is to be fitted
-    row = next(r for r in state["sheet"]["rows"] if r["name"] == "K1")
-    change = {"value": row["values"], "unit": row["unit"], "sigma": None, "fixed": True}
-    assert client.post("/api/do/edit", json={"values": {"K1": change}}).status_code == 202
+    text = state["sheet"].replace('unit = "mA/g" }', 'unit = "mA/g", fixed = true }')
+    assert client.post("/api/do/edit", json={"text": text}).status_code == 202
     state = compared(client, "validation")
     assert "The calibration on b " in state["validation"]
     kept = client.get("/api/panel", params={"what": "time", "flight": 0, "fan": 1})
@@ -365,8 +363,7 @@ def test_a_directory_that_several_change_loses_nothing(server, client, folder) -
         # a shell adds an effect while the page shows the old state: the page's change is refused, not laid over it
         api.add(api.load(model), "bias-drift")
         present = effects()
-        row = next(r for r in one.get("/api/state").json()["sheet"]["rows"] if r["name"] == "K0")
-        change = {"values": {"K0": {"value": [1.0, 2.0, 3.0, 4.0], "unit": row["unit"]}}}
+        change = {"text": one.get("/api/state").json()["sheet"] + "\n# a remark\n"}
         refused = two.post("/api/do/edit", json=change)
         if refused.status_code != 202:
             assert "meantime" in refused.json()["error"]["what"] or refused.status_code == 409
