@@ -51,7 +51,7 @@ class UserError(Exception):
 
 EXTRAS = {
     **dict.fromkeys(("h5netcdf", "h5py", "openpyxl"), "files"),
-    **dict.fromkeys(("latex2mathml", "starlette", "uvicorn"), "studio"),
+    **dict.fromkeys(("starlette", "uvicorn"), "studio"),
     "distributed": "cluster",
     "matplotlib": "plots",
 }

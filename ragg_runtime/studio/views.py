@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import html
 import json
 import math
-import re
 import shlex
 from collections.abc import Callable, Mapping, Sequence
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from latex2mathml.converter import convert
-
 from ragg_runtime import api
-from ragg_runtime.api import Loaded
+from ragg_runtime.api import Loaded, effects
 from ragg_runtime.base import false_alarms
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.identification.comparison import Comparison
@@ -24,6 +19,7 @@ from ragg_runtime.io.record import LEFT_OUT
 from ragg_runtime.report import pages, panels
 from ragg_runtime.studio.session import State, list_present
 from ragg_runtime.wording import describe, numbers
+from ragg_runtime.wording.describe_other import describe_effect
 from ragg_runtime.wording.sections import Section, render_html
 
 Json = dict[str, Any]
@@ -111,39 +107,28 @@ def _list_outputs(s: State, flight: int) -> list[str]:
     return [o.output.name for o in c.fitted.observations if o.flight == position]
 
 
-def _describe(d: Diagnosis, effect: str) -> Json:
-    """The catalogue's entry of an effect; only the id of one that the model does not have."""
-    e: Any = d.fitted.model.effect(effect)
-    if e is None:
-        return {"id": effect}
-    texts = {n: getattr(e, n) for n in ("id", "title", "physics", "source", "limits")}
-    return texts | {"equation": mathml(e.equation, block=True), "channels": list(e.channels)}
-
-
 def show_effects(d: Diagnosis) -> list[Json]:
-    """The ranking, best first, each with its entry in the catalogue."""
-    level = math.log(false_alarms.CATALOGUE / max(1, len(d.ranking)))
-    entries: list[Json] = []
-    for r in d.ranking:
-        result: Any = r.as_json()
-        significant, claimed = r.test.rank > 0 and r.log_p < level, r.effect in d.found
-        best = describe.choose_values(result) if significant or claimed else []
-        entries.append(
-            {
-                **_describe(d, r.effect),
-                "found": claimed,
-                "significant": significant,
-                "p": numbers.probability(result["log10_p"]),
-                "probability": result["probability"],
-                "chance": describe.chance(result["probability"], result["log10_p"]),
-                "after": numbers.number(r.after.rms_Eo),
-                "holdout": numbers.number(r.after_holdout.rms_Eo),
-                "seen_from": [describe.write_size(s.as_json()) for s in d.sizes if s.effect == r.effect],
-                "values": [[describe.label_parameter(p), describe.format_value(p)] for p in best],
-                "indistinguishable": list(r.indistinguishable_from),
-            }
-        )
-    return entries
+    """The ranking, best first, each with its entry in the catalogue, if it is not an effect of the user's own."""
+    level, catalogue = (
+        math.log(false_alarms.CATALOGUE / max(1, len(d.ranking))),
+        {e["id"]: e for e in effects()},
+    )
+    results: list[Any] = [r.as_json() for r in d.ranking]
+    return [
+        {
+            "id": r.effect,
+            "title": catalogue[r.effect]["title"] if r.effect in catalogue else r.effect,
+            "about": render_html(describe_effect(catalogue[r.effect])) if r.effect in catalogue else "",
+            "found": r.effect in d.found,
+            "significant": r.test.rank > 0 and r.log_p < level,
+            "p": numbers.probability(result["log10_p"]),
+            "probability": result["probability"],
+            "chance": describe.chance(result["probability"], result["log10_p"]),
+            "after": numbers.number(r.after.rms_Eo),
+            "holdout": numbers.number(r.after_holdout.rms_Eo),
+        }
+        for r, result in zip(d.ranking, results, strict=True)
+    ]
 
 
 def _show_validation(s: State) -> str:
@@ -151,24 +136,6 @@ def _show_validation(s: State) -> str:
     result: Any = s.held
     names = [s.flights[n].name for n in sorted(s.kept)]
     return render_html(describe.describe_held(result.as_json(), names))
-
-
-_BOLD = re.compile(r"\\(bm|boldsymbol)\b")
-_OPERATOR = re.compile(r"\\mathrel\{([+-])\}=")
-
-
-@lru_cache(maxsize=512)
-def mathml(latex: str, *, block: bool = False) -> str:
-    """``latex`` as a ``<math>`` element; as plain text where it is none (an expression of the user's own)."""
-    plain = f"<code>{html.escape(latex)}</code>"
-    if ("\\" not in latex and "*" in latex) or set("<>&") & set(latex):  # the converter passes markup on
-        return plain
-    text = _OPERATOR.sub(r"\1=", _BOLD.sub(r"\\mathbf", latex))
-    try:
-        element = str(convert(text, display="block" if block else "inline"))
-    except Exception:  # if the converter fails on a text, the text itself is shown
-        return plain
-    return element if "\\" not in element else plain
 
 
 # --- what one takes along ------------------------------------------------------------------------------

@@ -129,7 +129,7 @@ def test_05_by_keyboard_alone_an_effect_is_added_undone_and_added_again(page: Pa
     page.locator("#main").focus()
     page.keyboard.press("j")
     page.keyboard.press("Enter")
-    expect(page.locator(".ranking li:first-child math").first).to_be_visible()
+    expect(page.locator(".ranking li:first-child .about pre").first).to_be_visible()
     page.keyboard.press("Space")
     page.keyboard.press("a")
     expect(page.locator(".chip")).to_contain_text(effect, timeout=PATIENCE)

@@ -24,7 +24,6 @@ from ragg_runtime.estimation.regressors import list_base_columns
 from ragg_runtime.model.directory import HistoryStep, load_model_dir
 from ragg_runtime.studio import mapping, views
 from ragg_runtime.studio.session import list_present
-from ragg_runtime.studio.views import mathml
 from ragg_runtime.wording import numbers
 
 
@@ -74,13 +73,9 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
             mapping.keep(m, path, wrong, replace=True)
 
 
-def test_every_equation_of_the_catalogue_is_typeset() -> None:
+def test_every_equation_of_the_catalogue_is_plain_text() -> None:
     for e in catalogue():
-        for text in (e.equation, *(q.latex for q in e.parameters)):
-            assert mathml(text).startswith("<math"), (e.id, text)
         assert not set("\\{}") & set(numbers.equation(e.equation)), e.id
-    assert mathml("K_x*f_i**2") == "<code>K_x*f_i**2</code>"
-    assert "<script" not in mathml("\\text{<script>alert(1)</script>}")
 
 
 def test_names_of_several_lines_stay_in_the_comments_of_a_shell(tmp_path: Path) -> None:

@@ -39,14 +39,6 @@ export function pictureNode(what, values) {
   return h("div", {}, image, note);
 }
 
-/** MathML from the server; anything else is shown as text. Its attributes run nothing: the page's policy allows no code but its own. */
-export function maths(text) {
-  const root = new DOMParser().parseFromString(text || "", "application/xml").documentElement;
-  if (root.localName === "math") return document.importNode(root, true);
-  return root.localName === "code" ? h("code", {}, root.textContent) : document.createTextNode(root.textContent.slice(0, 500));
-}
-
-
 /** A rate: at most five digits, and no zeros at the end. */
 export const hertz = (x) => String(Number(x.toPrecision(5)));
 

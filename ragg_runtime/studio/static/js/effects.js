@@ -1,6 +1,6 @@
-// The effects, best first: evidence, equation, physics, what absorbs them; those that are ticked are added.
+// The effects, best first: evidence, and their entry in the catalogue; those that are ticked are added.
 import { doing } from "./api.js";
-import { fill, h, keys, maths } from "./dom.js";
+import { fill, h, keys, sections } from "./dom.js";
 import { look, on, server, view } from "./store.js";
 
 const tick = (id) => look({ ticked: view.ticked.includes(id) ? view.ticked.filter((e) => e !== id) : [...view.ticked, id] });
@@ -49,16 +49,8 @@ export function effectsPane(box) {
   };
 
   const about = (e) => [
-    e.equation ? h("div.equation", { tabindex: "0", role: "group", "aria-label": "Equation" }, maths(e.equation)) : null,
-    e.physics ? h("p.physics", {}, e.physics) : null,
-    e.values.length ? h("table.values", {}, h("tbody", {}, e.values.map(([name, text]) => h("tr", {}, h("th", { scope: "row" }, name), h("td", {}, text))))) : null,
-    h("dl.facts", {},
-      h("dt", {}, "alone"), h("dd", {}, `${e.after} Eo, held out ${e.holdout} Eo; p-value ${e.p}`),
-      e.indistinguishable.length ? [h("dt", {}, "indistinguishable from"), h("dd", {}, e.indistinguishable.map((t, k) => [k ? ", " : "", h("code", {}, t)]))] : null,
-      e.seen_from.length ? [h("dt", {}, "detection limit"), h("dd", {}, e.seen_from.join("; "), " (3 σ)")] : null,
-      e.channels && e.channels.length ? [h("dt", {}, "needs"), h("dd", {}, e.channels.join(", "))] : null,
-      e.limits ? [h("dt", {}, "limits"), h("dd", {}, e.limits)] : null,
-      e.source ? [h("dt", {}, "source"), h("dd", {}, e.source)] : null),
+    h("p.note", {}, `Alone: ${e.after} Eo, held out ${e.holdout} Eo; p-value ${e.p}.`),
+    e.about ? sections(e.about) : h("p.note", {}, "An effect of model.toml."),
   ];
 
   const marks = () => {
