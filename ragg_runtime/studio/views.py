@@ -37,7 +37,9 @@ def describe_state(s: State) -> Json:
         "error": None if c is None else c.as_json()["error"],
         "result": [] if c is None else _show_result(s, c, d),
         "effects": [] if d is None else show_effects(d),
-        "parameters": None if c is None else render_html(panels.describe_parameters(c.fitted)),
+        "parameters": None
+        if c is None
+        else render_html(panels.describe_parameters(c.fitted)[:-1]),  # without the matrix
         "validation": None if s.held is None else _show_validation(s),
         "sheet": None if m is None else m.directory.text,
         "history": None if m is None else _show_history(m),
