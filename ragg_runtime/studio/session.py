@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, TypeVar
+from typing import Any
 
 from ragg_runtime import api
 from ragg_runtime.api import Held, Loaded
@@ -21,7 +21,6 @@ from ragg_runtime.model.directory import HistoryStep, load_model_dir
 from ragg_runtime.studio.files import Places
 from ragg_runtime.studio.mapping import is_foreign
 
-T = TypeVar("T")
 Say = Callable[[str], None]  # says what is being worked on
 
 NOTHING: Mapping[str, None] = MappingProxyType(dict.fromkeys(("compared", "diagnosed", "held", "previous")))
