@@ -48,10 +48,15 @@ def listening(tell: Callable[[float], None]) -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def show_progress(command: str, samples: int) -> Iterator[None]:
-    """Show on a terminal how far ``command`` is with flights of so many ``samples``; nobody knows how much comes beyond the estimate."""
+def show_progress(text: str, command: str, samples: int) -> Iterator[None]:
+    """Say on stderr what is being done, on a terminal with how far ``command`` is with flights of so many ``samples``.
+
+    Nobody knows how much comes beyond the estimate: the bar never reaches its end before.
+    """
     length = int(PASSES[command] * max(samples, 1))
-    with click.progressbar(length=length, file=sys.stderr, update_min_steps=length // 200) as bar:
+    with click.progressbar(
+        length=length, label=f"... {text}", file=sys.stderr, update_min_steps=max(1, length // 200)
+    ) as bar:
 
         def tell(amount: float) -> None:
             assert bar.length is not None

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import os
 import shlex
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -142,12 +142,9 @@ def read(m: Loaded, flights: Sequence[Path], mapping: Path | None, *, gradient: 
     return api.read_flights(m, flights, mapping, gradient=gradient)
 
 
-@contextlib.contextmanager
-def working(text: str, command: str, flights: Sequence[Flight]) -> Iterator[None]:
+def working(text: str, command: str, flights: Sequence[Flight]) -> AbstractContextManager[None]:
     """Report on stderr what is being done, and how far it is."""
-    progress.remark(text)
-    with progress.show_progress(command, sum(map(len, flights))):
-        yield
+    return progress.show_progress(text, command, sum(map(len, flights)))
 
 
 def make_source(m: Loaded, flights: Sequence[Flight] = (), **fields: Any) -> Source:

@@ -231,7 +231,7 @@ def test_a_bar_never_reaches_its_end_before_the_work_does(monkeypatch: pytest.Mo
 
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
-    with progress.show_progress("diagnose", 1000):
+    with progress.show_progress("diagnosing", "diagnose", 1000):
         for _ in range(30):
             progress.step(progress.PASSES["diagnose"] * 100.0)
     shares = [int(x) for x in re.findall(r"(\d+)%", terminal.getvalue())]

@@ -1,7 +1,7 @@
 // The page: tabs, keys, what the server is doing, and which view is open.
 //
 // Imports go down alone: app -> loop, model, files, take -> effects, figures -> store, api, dom.
-//   dom     elements, numbers, MathML                     api     what the server is asked; actions, and what went wrong
+//   dom     elements, numbers, sections                    api     what the server is asked; actions, and what went wrong
 //   store   what is known (server) and looked at (view)
 import { ask, doing, events, Refused, trouble } from "./api.js";
 import { filesView } from "./files.js";

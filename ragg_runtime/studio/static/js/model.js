@@ -1,6 +1,6 @@
 // What the record determines of the parameters, the test sheet, and the history.
 import { doing } from "./api.js";
-import { fill, h, number, pictureNode, sections } from "./dom.js";
+import { fill, h, pictureNode, sections } from "./dom.js";
 import { on, server, view } from "./store.js";
 
 export function parametersView(main) {
