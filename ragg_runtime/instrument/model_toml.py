@@ -337,9 +337,6 @@ def _read_direction(table: Mapping[str, Any], key: str, where: str, default: Vec
     return normalise(raw)
 
 
-_NOTHING: Mapping[str, Any] = MappingProxyType({})
-
-
 def add_effect(text: str, setting: EffectSetting) -> str:
     """``text`` with the effect at the end of ``effects``, or with its values changed if it is there."""
     document = _parse(text)
@@ -396,23 +393,13 @@ def _parse(text: str) -> tomlkit.TOMLDocument:
 
 
 def _write_entry(setting: EffectSetting) -> Any:
-    expression = setting.expression or {"params": {}}
-    if not (setting.values or setting.expression):
+    if not setting.values:
         return tomlkit.item(setting.id)
     entry = tomlkit.inline_table()
-    entry.update({"id": setting.id} | {k: expression[k] for k in _EXPRESSION if k in expression})
-    for name in dict.fromkeys((*expression["params"], *setting.values)):
-        entry.add(name, _write_inline(setting.values.get(name), expression["params"].get(name, _NOTHING)))
+    entry["id"] = setting.id
+    for name, quantity in setting.values.items():
+        _put(entry, name, quantity)
     return entry
-
-
-def _write_inline(quantity: RawQuantity | None, further: Mapping[str, Any]) -> Any:
-    """An inline table of a quantity and further keys, those that are false or empty left out."""
-    table = tomlkit.inline_table()
-    if quantity is not None:
-        table.update({"value": _write_number(quantity.value), "unit": quantity.unit})
-    table.update({k: x for k, x in further.items() if k not in table and x not in (False, [])})
-    return table
 
 
 def _write_number(value: float | tuple[float, ...]) -> int | float | list[Any]:
@@ -429,7 +416,9 @@ def _put(table: Any, name: str, quantity: RawQuantity) -> None:
     entry = dict(old) if isinstance(old, dict) else {}
     if entry.get("unit") != quantity.unit:
         entry.pop("sigma", None)
-    table[name] = _write_inline(quantity, entry)
+    table[name] = tomlkit.inline_table()
+    written = {"value": _write_number(quantity.value), "unit": quantity.unit}
+    table[name].update({**written, **entry, **written})
     if old is not None:
         table[name].trivia.comment, table[name].trivia.comment_ws = old.trivia.comment, old.trivia.comment_ws
 
