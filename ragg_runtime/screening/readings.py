@@ -350,7 +350,9 @@ def _find_repeated(x: Array, present: Mask, turning: bool) -> _Repeated | None:
     bend = _find_bends(x, present, 2)
     if not turning and (joined := _find_joined(present, bend)) is not None:
         return joined  # the angle of a disc is a line
-    filled = stuck = _find_stuck(x, present, equal, step or 0.0, turning)
+    stuck = np.zeros_like(present)
+    stuck[present] = _find_stuck(x[present], step or 0.0, turning)  # a missing sample ends no run
+    filled = stuck
     if not (turning or coarse):
         fourth = _find_bends(x, present, 4)
         filled = stuck | _find_curves(x, bend, step or 0.0, 1) | _find_curves(x, fourth, step or 0.0, 3)
@@ -385,23 +387,23 @@ def _find_joined(present: Mask, bend: Array) -> _Repeated | None:
     return _Repeated("joined by straight lines", present & ~kept, float(spacing))
 
 
-def _find_stuck(x: Array, present: Mask, equal: Mask, step: float, turning: bool) -> Mask:
-    """(N,): samples in runs of equal values that are too long for how often the column repeats a value elsewhere.
+def _find_stuck(x: Array, step: float, turning: bool) -> Mask:
+    """(N,): samples in runs of equal values of a column, (N,), that are too long for how often it repeats a value elsewhere.
 
     The chance that two neighbours are equal is counted in as many pairs before and after a run as it has; or it is the resolution
     over the usual move there, whichever is smaller, as few pairs cannot tell how small a chance is. Runs that a column enters
     and leaves by a ``step`` or two of its resolution are where it turns; those at an end of its range are saturation, an
     effect of its own, unless the column leaps there.
     """
-    stuck = np.zeros(len(x), dtype=np.bool_)
+    stuck, equal = np.zeros(len(x), dtype=np.bool_), x[1:] == x[:-1]
     equals = np.array([(r.start, r.stop + 1) for r in runs(equal)], dtype=np.intp).reshape(-1, 2)
-    low, high = np.min(x[present]), np.max(x[present])
+    low, high = np.min(x), np.max(x)
     moves = np.abs(np.diff(x, prepend=x[:1], append=x[-1:]))
     first, last = equals[:, 0], equals[:, 1] - 1
     inside = (x[first] != low) & (x[first] != high)
     sudden = np.minimum(moves[first], moves[last + 1]) > SUDDEN * np.median(moves[1:-1][~equal])
-    finest = max(step, float(np.spacing(np.max(np.abs(x[present])))))
-    moving = pd.Series(np.where(present[1:] & present[:-1] & ~equal, moves[1:-1], np.nan))
+    finest = max(step, float(np.spacing(np.max(np.abs(x)))))
+    moving = pd.Series(np.where(equal, np.nan, moves[1:-1]))
     usual = moving.groupby(np.arange(len(moving)) // LOCAL).transform("median").fillna(0.0).to_numpy()
     by_step = finest / np.maximum(usual, finest)
     kept = inside | sudden
@@ -417,7 +419,7 @@ def _find_stuck(x: Array, present: Mask, equal: Mask, step: float, turning: bool
         reading = x[first[k]] != 0.0 and last[k] - first[k] < 3  # of which the others are copies
         stuck[first[k] + reading : last[k] + 1] = True
     if not turning and len(x) * float(np.median(by_step)) < RARE:  # it hardly ever meets a value again
-        stuck |= _find_lost(x, present, stuck)
+        stuck |= _find_lost(x, stuck)
     return stuck
 
 
@@ -457,14 +459,14 @@ def _find_curves(x: Array, bend: Array, step: float, degree: int) -> Mask:
     return filled
 
 
-def _find_lost(x: Array, present: Mask, stuck: Mask) -> Mask:
+def _find_lost(x: Array, stuck: Mask) -> Mask:
     """(N,): single samples of values that come again and again, zero among them: readings that did not arrive."""
     lost = np.zeros(len(x), dtype=np.bool_)
-    values, counts = np.unique(x[present & ~stuck], return_counts=True)
+    values, counts = np.unique(x[~stuck], return_counts=True)
     often = (counts >= FEWEST / 2) & (counts >= 4 * np.median(counts))
-    again = values[often & (values != np.min(x[present])) & (values != np.max(x[present]))]
+    again = values[often & (values != np.min(x)) & (values != np.max(x))]
     for value in {0.0, *again} if len(again) <= 3 else ():
-        alike = find_short_runs(present & (x == value), WIDEST_SPIKE)
+        alike = find_short_runs(x == value, WIDEST_SPIKE)
         lost |= alike & (len(runs(alike)) > 1)
     return lost
 

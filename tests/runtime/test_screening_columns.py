@@ -106,13 +106,15 @@ def test_an_encoder_is_mended(wrong: np.ndarray, lost: int) -> None:
     "x", [SMOOTH, np.round(SMOOTH, 2), NOISE, 2 + SMOOTH], ids=["smooth", "coarse", "noise", "at an end"]
 )
 def test_what_stands_still_is_left_out(name: str, x: np.ndarray) -> None:
-    """A drop-out at an end of the range is no saturation."""
+    """A drop-out at an end of the range is no saturation, with a sample that lacks in it, too."""
     stuck = x.copy()
     stuck[1000:1032] = stuck[1000]
     stuck[5000:5006] = 0.0
     flight = screened(stuck, name)
     left_out = ~flight.valid if name == "a_x" else np.isnan(flight.outputs["G_out"])
     assert np.flatnonzero(left_out).tolist() == [*range(1000, 1032), *range(5000, 5006)]
+    low = screened(np.where(TIME == 313, np.nan, np.where(np.abs(TIME - 313) < 2, 0.0, x - np.min(x) + 5)))
+    assert np.sum(np.isnan(low.outputs["G_out"])) == 63
     assert "is stuck: 32 equal samples from 62.5 s, 6 equal samples from 312.5 s" in flight.notes[0]
 
 
