@@ -90,8 +90,6 @@ class Command(click.Command):
 
     def invoke(self, ctx: click.Context) -> Any:
         self._check_outputs(ctx)
-        if ctx.params.get("report_file") is not None:
-            import_module("matplotlib")  # before a long computation
         options = ("json_file", "report_file", "verbose")
         ctx.meta[__name__] = {k: ctx.params.pop(k, None) for k in options}
         return super().invoke(ctx)

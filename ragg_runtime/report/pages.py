@@ -19,7 +19,6 @@ from ragg_runtime.identification.result import Diagnosis
 from ragg_runtime.io import Flight
 from ragg_runtime.report import panels
 from ragg_runtime.report.panels import describe_parameters
-from ragg_runtime.report.plots import draw_plot
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.wording import describe, numbers
 from ragg_runtime.wording.sections import (
@@ -31,6 +30,15 @@ from ragg_runtime.wording.sections import (
     render_html,
 )
 from ragg_runtime.workspace import Source
+
+
+def draw_figure(plot: Plot) -> str:
+    """The plot as SVG; without matplotlib a line that names the extra."""
+    try:
+        from ragg_runtime.report.plots import draw_plot
+    except ModuleNotFoundError:
+        return "<p>no figure without matplotlib: pip install 'ragg[plots]'</p>"
+    return draw_plot(plot)
 
 
 def render_page(kind: str, sections: Sequence[Section], source: Source) -> str:
@@ -47,8 +55,8 @@ def render_page(kind: str, sections: Sequence[Section], source: Source) -> str:
         page.render(
             kind=kind,
             source=source,
-            first=render_html([first], draw_plot),
-            others=render_html(further, draw_plot),
+            first=render_html([first], draw_figure),
+            others=render_html(further, draw_figure),
             facts=[
                 ("derived model", source.m and source.m.model.digest),
                 ("versions", libraries),

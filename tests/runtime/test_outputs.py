@@ -30,8 +30,10 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import COMMANDS, cli, main
 from ragg_runtime.io import Flight, write_flight
 from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.report.pages import draw_figure
 from ragg_runtime.screening import timing
 from ragg_runtime.simulate import simulate_flight
+from ragg_runtime.wording.sections import Bar, Bars
 from tests.simulated import RATE
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="devices, links and pipes of Unix")
@@ -206,10 +208,11 @@ def test_a_missing_extra_ends_in_what_to_install(tmp_path, monkeypatch, capsys) 
     assert "pip install 'ragg[files]'" in message
 
 
-def test_without_matplotlib_a_report_is_refused_at_once(given, tmp_path, monkeypatch, capsys) -> None:
+def test_without_matplotlib_a_page_names_the_extra_where_a_figure_would_be(monkeypatch) -> None:
+    for name in [n for n in sys.modules if n.startswith(("matplotlib", "ragg_runtime.report.plots"))]:
+        monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    message = refused("history", given[0], "--report", tmp_path / "r.html", capsys=capsys)
-    assert "pip install 'ragg[plots]'" in message
+    assert "ragg[plots]" in draw_figure(Bars("b", "caption", (Bar("x", 1.0),), "axis"))
 
 
 @pytest.mark.parametrize(

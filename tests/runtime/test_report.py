@@ -117,7 +117,7 @@ def pages(c: Case) -> dict[str, str]:
     ]
     texts = {"diagnose": write_diagnosis(c.diagnosis, ORIGIN)}
     with pytest.MonkeyPatch.context() as patch:  # the figures are those of the diagnosis
-        patch.setattr("ragg_runtime.report.pages.draw_plot", lambda _: "<svg></svg>")
+        patch.setattr("ragg_runtime.report.pages.draw_figure", lambda _: "<svg></svg>")
         texts["compare"] = write_comparison(c.comparison, ORIGIN)
         texts["add"] = write_addition(history, c.comparison, c.comparison, ORIGIN)
     return texts
