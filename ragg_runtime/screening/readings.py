@@ -310,7 +310,9 @@ def _take_recorded_rate(flight: Flight) -> Flight:
     if not names or ANGULAR_ACCELERATION[0] in flight.written:
         return flight
     full = _find_full(flight)
-    slower = [r for n in names if (r := _find_repeated(flight.channels[n], full, False)) and r.every]
+    # a rate is copied, too, where something else lacks
+    there = full if flight.lacking is None else ~flight.lacking
+    slower = [r for n in names if (r := _find_repeated(flight.channels[n], there, False)) and r.every]
     kept = np.flatnonzero(full & ~np.any([r.left_out for r in slower], axis=0))
     spacing = int(max((r.every for r in slower), default=0))
     if not slower or not len(kept) or np.any((kept - kept[0]) % spacing):
