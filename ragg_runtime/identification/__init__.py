@@ -9,7 +9,7 @@ The data that flows, and where each step of the textbook is:
   ``search.Evidence``: all that was selected, and ``search.Outcome``: fitted together, with what it leaves;
 - ``omnibus.Remainder``: lack of fit, by orthogonal matching pursuit over the generic terms of ``dictionary``; ``time_varying``: terms that
   come and go; ``formula``: a formula of one line for it;
-- ``verdict.Conclusion``: what is claimed beside it; ``claims``: robust variance, rivalry with generic terms;
+- ``verdict.Conclusion``: what is claimed beside it; ``claims``: robust variance, held-out blocks, rivalry with generic terms;
   ``line_rival``: rivalry with lines near multiples of the spin rate; ``consistency``: Chow's test between flights, changes within them;
 - ``result.Diagnosis``: what is reported, with ``ranking``: p-values and posterior probabilities of all effects, ``parameters``: their
   values, ``next_motion``: the optimal design of the next flight.

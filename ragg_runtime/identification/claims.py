@@ -7,7 +7,8 @@ A model is never complete: y = h(theta) + d + n, with d what no effect explains.
     significant its excess over the noise divides both chi-squares, the claims must be ahead plainly, and each must explain more than
     the best generic term of d;
 (b) its coefficients are significant with a variance estimated from their scores in blocks of time (P. Huber 1967; H. White, Econometrica
-    48, 1980), of few blocks with the correction CR2 (R. Bell and D. McCaffrey, Survey Methodology 28, 2002).
+    48, 1980), of few blocks with the correction CR2 (R. Bell and D. McCaffrey, Survey Methodology 28, 2002);
+(c) held-out, interleaved blocks of time do not speak against it, by their predictive density.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtri
 
-from ragg_runtime.estimation.fitted import Fitted
+from ragg_runtime.estimation.fitted import FITTED_BLOCKS, Fitted
 from ragg_runtime.estimation.likelihood_ratio import TESTABLE, weigh
 from ragg_runtime.estimation.scores import log_sf, log_sf_f
 from ragg_runtime.identification.omnibus import Omnibus, Remainder
@@ -76,18 +77,34 @@ class Regression:
     def columns(self, effect: str) -> list[int]:
         return [k for k, e in enumerate(self.effects) if e == effect]
 
-    def blocks(self) -> list[Array]:
-        """R factors of the blocks of all flights that hold any sample."""
-        return [t for factors in self.flights for t in factors if np.any(t)]
+    def blocks(self, only: Sequence[int] | None = None) -> list[Array]:
+        """R factors of the blocks that hold any sample: of all blocks of each flight, or of ``only`` these."""
+        return [
+            t for ts in self.flights for b, t in enumerate(ts) if (only is None or b in only) and np.any(t)
+        ]
+
+    def log_evidence(self, only: Sequence[int] | None = None, without: Sequence[int] = ()) -> float:
+        """Log of the Gaussian integral over the fitted coefficients, up to a constant of the blocks."""
+        R = self._factor(only, without)
+        k = len(self.centre) - len(without)
+        return -0.5 * float(np.sum(R[k:, k] ** 2)) - float(np.sum(np.log(np.abs(np.diag(R)[:k]))))
+
+    def _factor(self, only: Sequence[int] | None, without: Sequence[int]) -> Array:
+        """The R factor of [fitted columns | data], the prior included."""
+        n = len(self.centre)
+        kept = [k for k in range(n) if k not in without]
+        fixed = np.zeros(n)
+        fixed[list(without)] = self.absent[list(without)]
+        rows = [np.column_stack([t[:, kept], t[:, -1] - t[:, :n] @ fixed]) for t in self.blocks(only)]
+        sheet = np.column_stack([np.eye(len(kept)), self.centre[kept]])
+        return np.asarray(np.linalg.qr(np.vstack([*rows, sheet]), mode="r"))
 
     # --- the fit, with a covariance from the scores in blocks of time next to the model's own
 
     @cached_property
     def _root(self) -> tuple[Array, Array]:
         """Coefficients (n,), and a root of their covariance (n, n)."""
-        n = len(self.centre)
-        sheet = np.column_stack([np.eye(n), self.centre])
-        R = np.asarray(np.linalg.qr(np.vstack([*self.blocks(), sheet]), mode="r"))
+        n, R = len(self.centre), self._factor(None, ())
         root = np.asarray(np.linalg.inv(R[:n, :-1]))
         return root @ R[:n, -1], root
 
@@ -162,6 +179,16 @@ class Significance:
             return log_p
         by = max(1.0, self.inflation)
         return max(log_p, log_sf_f(self.chi2 / by / self.rank, self.rank, freedom))
+
+
+def weigh_held_out(x: Regression, effect: str) -> float:
+    """Log of the ratio of the predictive densities of the blocks that a fit does not see, with an effect and without it.
+
+    That is what its log evidence gains from them: of an effect that the others do not determine nothing is held against it.
+    """
+    E = x.columns(effect)
+    whole, fitted = (x.log_evidence(blocks) - x.log_evidence(blocks, E) for blocks in (None, FITTED_BLOCKS))
+    return whole - fitted
 
 
 def weigh_generic_terms(

@@ -166,7 +166,7 @@ def _drop_unfounded(evidence: Evidence, o: Outcome) -> tuple[Outcome, list[str]]
     while o.effects:
         e, log_p = _find_weakest(evidence, o)
         if _is_significant(evidence, o, log_p):
-            other = _find_unfitted(evidence, o)
+            other = _find_contradicted(o, evidence.first) or _find_unfitted(evidence, o)
             if other is None:
                 break
             e = other
@@ -216,6 +216,14 @@ def _compare_with_strongest(o: Outcome, s: Significance, log_p: float) -> float:
 def _is_significant(evidence: Evidence, o: Outcome, log_p: float) -> bool:
     level = selection.FAMILY if len(o.effects) == 1 else selection.FURTHER
     return evidence.first.problem.significant(Test(0.0, 1, log_p, ()), level)
+
+
+def _find_contradicted(o: Outcome, first: Stage) -> str | None:
+    """The effect that held-out blocks of time speak against most, if plainly; the instant of a step is from all of the record."""
+    instants = {e.id for e in first.fitted.model.candidates if e.kind == "step"}
+    speaks = {e: claims.weigh_held_out(o.regression, e) for e in o.effects if e not in instants}
+    worst = min(speaks, key=lambda e: (speaks[e], e), default=None)
+    return worst if worst is not None and speaks[worst] < -DISTINGUISHABLE else None
 
 
 def _find_unfitted(evidence: Evidence, o: Outcome) -> str | None:

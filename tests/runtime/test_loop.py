@@ -9,11 +9,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from ragg_runtime.api import example
-from ragg_runtime.estimation.fitted import estimate_variance, fit
-from ragg_runtime.estimation.observation import observe, observe_flights
-from ragg_runtime.identification import selection, strong
+from ragg_runtime.estimation.fitted import FITTED_BLOCKS, estimate_variance, fit
+from ragg_runtime.estimation.observation import BLOCKS, observe, observe_flights
+from ragg_runtime.estimation.scores import DISTINGUISHABLE
+from ragg_runtime.identification import claims, selection, strong
+from ragg_runtime.identification.claims import Regression
 from ragg_runtime.identification.comparison import compare
 from ragg_runtime.identification.diagnose import diagnose
 from ragg_runtime.identification.ranking import list_not_testable
@@ -25,6 +28,8 @@ from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulators import demodulate
 from ragg_runtime.simulate import simulate_flight
 from tests.simulated import RATE, diagnosed
+
+Array = NDArray[np.float64]
 
 
 def claimed(d: Diagnosis) -> set[str]:
@@ -208,3 +213,28 @@ def test_an_effect_is_tested_with_the_channels_that_are_there(lost, testable) ->
     x = replace(x, channels={n: v for n, v in x.channels.items() if n not in lost})
     found = selection.list_testable(fit(load_packaged(), sheet, observe_flights([x], sheet)))
     assert {"magnetic-bias", "self-gradient"} & set(found) == testable
+
+
+ROWS = 200
+
+
+def regression(sizes: Array, *, further: int = 0) -> Regression:
+    """An effect's column of so many sigma in each block (BLOCKS,), ``further`` that nothing excites, and one of the instrument."""
+    rng = np.random.default_rng(1)
+    blocks = []
+    for size in sizes:
+        X = np.column_stack([rng.normal(size=(ROWS, 2)), 1e-9 * rng.normal(size=(ROWS, further))])
+        y = rng.normal(size=ROWS) + X[:, 1] * size / np.sqrt(ROWS)
+        blocks.append(np.linalg.qr(np.column_stack([X, y]), mode="r"))
+    effects = (None, *(["e"] * (1 + further)))
+    return Regression((tuple(blocks),), np.zeros(2 + further), np.zeros(2 + further), effects)
+
+
+def test_held_out_blocks_speak_for_what_is_there_and_against_what_is_not() -> None:
+    fitted = np.isin(np.arange(BLOCKS), FITTED_BLOCKS)
+    assert claims.weigh_held_out(regression(np.full(BLOCKS, 2.0)), "e") > 5.0
+    assert claims.weigh_held_out(regression(np.where(fitted, 2.0, -2.0)), "e") < -20.0
+    assert abs(claims.weigh_held_out(regression(np.zeros(BLOCKS)), "e")) < DISTINGUISHABLE
+    # coefficients that nothing excites cost a claim nothing
+    few, many = (claims.weigh_held_out(regression(np.full(BLOCKS, 2.0), further=n), "e") for n in (0, 12))
+    assert many == pytest.approx(few, abs=3.0)
