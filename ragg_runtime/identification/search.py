@@ -140,10 +140,10 @@ class Evidence:
         """For every chosen effect those that would explain as much in its place."""
         return {t.effect: t.alternatives for t in self.steps} or self.first.alternatives
 
-    def without(self, o: Outcome, effect: str) -> Outcome:
-        """An outcome without one of its effects, fitted again."""
+    def without(self, o: Outcome, effects: Sequence[str]) -> Outcome:
+        """An outcome without some of its effects, fitted again."""
         first, last = self.first, self.last
-        kept = [e for e in o.effects if e != effect]
+        kept = [e for e in o.effects if e not in effects]
         if not kept:
             return Outcome.of(first.fitted, (), ())
         if not self._is_derived(o):

@@ -58,8 +58,8 @@ class Conclusion:
         lead = before if outcome is chosen else compare(outcome)
         while not (lead.claims or outcome.remains) and len(outcome.effects) > 1:
             # generic terms do as well as all of these, but perhaps not as well as those without the weakest
-            weakest, _ = _find_weakest(evidence, outcome)
-            less = evidence.without(outcome, weakest)
+            _, weakest = _list_weakest(evidence, outcome)[0]
+            less = evidence.without(outcome, [weakest])
             if less.remains:
                 break
             outcome, weak = less, [*weak, weakest]
@@ -149,9 +149,7 @@ def _drop_lines(evidence: Evidence) -> tuple[Outcome, LineAlternative | None, tu
     line, steady = find_line_rival(evidence.steps, evidence.last)
     if line is None or not line.better(outcome.remainder):
         return outcome, None, steady
-    for e in line.effects:
-        outcome = evidence.without(outcome, e) if e in outcome.effects else outcome
-    return outcome, line, steady
+    return evidence.without(outcome, line.effects), line, steady
 
 
 def _list_random(o: Outcome, count: int) -> list[str]:
@@ -161,17 +159,21 @@ def _list_random(o: Outcome, count: int) -> list[str]:
 
 
 def _drop_unfounded(evidence: Evidence, o: Outcome) -> tuple[Outcome, list[str]]:
-    """The outcome without the effects that are not significant beside the others, and these, in the order in which they went."""
+    """The outcome without the effects that are not significant beside the others, and these, in the order in which they went.
+
+    One at a time, as those that remain may be significant then; all at once if the budget of fits is spent.
+    """
     weak: list[str] = []
     while o.effects:
-        e, log_p = _find_weakest(evidence, o)
-        if _is_significant(evidence, o, log_p):
+        gone = [e for log_p, e in _list_weakest(evidence, o) if not _is_significant(evidence, o, log_p)]
+        if not gone:
             other = _find_contradicted(o, evidence.first) or _find_unfitted(evidence, o)
             if other is None:
                 break
-            e = other
-        weak.append(e)
-        o = evidence.without(o, e)
+            gone = [other]
+        gone = gone if evidence.spent else gone[:1]
+        weak += gone
+        o = evidence.without(o, gone)
     return o, weak
 
 
@@ -182,10 +184,9 @@ def _list_unsure(last: Stage, weak: Sequence[str], claimed: Sequence[str]) -> tu
     return tuple(dict.fromkeys(e for e in (*weak, *(e for _, e in near)) if e not in claimed))
 
 
-def _find_weakest(evidence: Evidence, o: Outcome) -> tuple[str, float]:
-    """The least significant effect, and the logarithm of its p-value."""
-    log_p, effect = max((_measure_log_p(evidence, o, e), e) for e in o.effects)
-    return effect, log_p
+def _list_weakest(evidence: Evidence, o: Outcome) -> list[tuple[float, str]]:
+    """The logarithm of the p-value of every effect of an outcome, the least significant first."""
+    return sorted(((_measure_log_p(evidence, o, e), e) for e in o.effects), reverse=True)
 
 
 def _measure_log_p(evidence: Evidence, o: Outcome, effect: str) -> float:
