@@ -138,7 +138,7 @@ def demonstration(reports: Path) -> Demonstration:
     (reports / "diagnosis.html").write_text(write_diagnosis(d, source), "utf-8")
     source = api.Source("ragg demo", step.loaded, flights, title="Demonstration: the effect added")
     steps = [s.as_json() for s in step.loaded.directory.history]
-    (reports / "report.html").write_text(write_addition(steps, c, step.after, source, d), "utf-8")
+    (reports / "report.html").write_text(write_addition(steps, c, step.after, source), "utf-8")
     documents = {
         name: result | api.Source(f"ragg {name} model", m, flights).as_json()
         for name, result in {"compare": c.as_json(), "diagnose": d.as_json()}.items()
