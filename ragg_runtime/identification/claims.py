@@ -135,9 +135,10 @@ class Regression:
         """The significance of an effect fitted jointly with all others, by its columns other than shapes."""
         E, C = [k for k in self.columns(effect) if k not in self.shapes], self.covariance
         submatrix = np.ix_(E, E)
-        sizes, U = np.linalg.eigh(C[submatrix])
-        determined = sizes < SEEN
-        U, sizes = U[:, determined], sizes[determined]
+        # from the root: where the record tells a direction well, rounding of the covariance may be more than its variance
+        U, stds, _ = np.linalg.svd(self._root[1][E], full_matrices=False)
+        determined = stds**2 < SEEN
+        U, sizes = U[:, determined], stds[determined] ** 2
         # of a value that is not there: the prior, which does not scatter, holds it back
         spread = sizes * (1.0 - sizes)
         y = U.T @ (self.value[E] - self.absent[E])
