@@ -69,7 +69,7 @@ def detection_limits() -> dict[str, dict[str, str]]:
     s = replace(s, auxiliaries={**s.auxiliaries, **draw_rare(np.random.default_rng(1))})
     f = fit(load_packaged(), s.sheet, observe_flights([s.simulate().flight()], s.sheet))
     limits: dict[str, dict[str, str]] = {}
-    for x in list_detectable(f, make_problem(f)):
+    for x in list_detectable(make_problem(f)):
         limits.setdefault(x.effect, {})[x.name] = f"{x.size:.2g}"
     return limits
 

@@ -126,7 +126,7 @@ def _make_diagnosis(
         remainder_share=min(1.0, by_terms / max(above, by_terms, 1.0)) if c.remains else 0.0,
         before=first.scored.whole,
         noise=noise,
-        sizes=tuple(ranking.list_detectable(f, problem)),
+        sizes=tuple(ranking.list_detectable(problem)),
         outcome=outcome,
         next_motion=tuple(next_motion.propose_motions(f, problem, pairs, limits)),
         reasons=tuple(c.reasons(describe_disagreement(apart), spent=evidence.spent)),

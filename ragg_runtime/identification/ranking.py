@@ -197,7 +197,7 @@ class Detectable:
         return {"effect": self.effect, "name": self.name, "three_sigma": self.size, "unit": self.unit}
 
 
-def list_detectable(f: Fitted, problem: ProjectedProblem) -> list[Detectable]:
+def list_detectable(problem: ProjectedProblem) -> list[Detectable]:
     """The detectable size of each parameter of each testable effect."""
     rows = []
     left = np.linalg.norm(problem.P, axis=0)
